@@ -11,7 +11,6 @@ with its interval at 95 of 100. A row a scene; rows of other scenes are left as 
 """
 
 import argparse
-import csv
 import json
 import math
 import pathlib
@@ -27,7 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "experiments/plotting"), str(ROOT / "experiments")]
 from speed_error import DEFAULT, net, number, rows_of  # noqa: E402
 from table import CAUSTIC  # noqa: E402
-from two_builds import interval  # noqa: E402
+from two_builds import interval, rows_of_others, write_rows  # noqa: E402
 
 SCENES = ["cornell-bunny", "glass-sphere", "glass-teapot", "pool"]
 SIZE, REFERENCE_PHOTONS = "400x300", "16777216"  # as the study has them
@@ -113,14 +112,11 @@ def main() -> int:
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "results/runs/tuned")
     parser.add_argument("--csv", type=pathlib.Path, default=ROOT / "results/all_techniques/tuned.csv")
     options = parser.parse_args()
-    rows = [row for row in rows_of(options.csv) if row["scene"] not in options.scenes] if options.csv.exists() else []
+    rows = rows_of_others(options.csv, options.scenes)
     for scene in options.scenes:
         rows.append(row_of(options, scene))
         print(scene, rows[-1]["ratio"], flush=True)
-        with options.csv.open("w", newline="", encoding="utf-8") as stream:
-            writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(sorted(rows, key=lambda row: row["scene"]))
+        write_rows(options.csv, COLUMNS, rows)
     return 0
 
 

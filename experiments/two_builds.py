@@ -69,6 +69,22 @@ def row_of(scene: str, before: pathlib.Path, after: pathlib.Path, pairs: int, op
             "device": f"{device['renderer']}, {device['cpu']}, {device['threads']} threads", "other_processors": f"{load:.2f}"}
 
 
+def rows_of_others(file: pathlib.Path, scenes: list[str]) -> list[dict]:
+    """What a file of a row a scene has of other scenes."""
+    if not file.exists():
+        return []
+    with file.open(newline="", encoding="utf-8") as stream:
+        return [row for row in csv.DictReader(stream) if row["scene"] not in scenes]
+
+
+def write_rows(file: pathlib.Path, columns: list[str], rows: list[dict]) -> None:
+    """By scene."""
+    with file.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(sorted(rows, key=lambda row: row["scene"]))
+
+
 def commit_of(build: pathlib.Path) -> str:
     done = subprocess.run(["git", "-C", build, "log", "-1", "--format=%h of %cs"], capture_output=True, text=True)
     return done.stdout.strip()
@@ -82,18 +98,12 @@ def main() -> int:
     parser.add_argument("--pairs", type=int, default=10, choices=[count + 1 for count in T95])
     parser.add_argument("--scenes", nargs="+", default=SCENES)
     arguments, options = parser.parse_known_args([one for one in sys.argv[1:] if one != "--"])
-    rows = []
-    if arguments.csv.exists():
-        with arguments.csv.open(newline="", encoding="utf-8") as stream:
-            rows = [row for row in csv.DictReader(stream) if row["scene"] not in arguments.scenes]
+    rows = rows_of_others(arguments.csv, arguments.scenes)
     arguments.csv.parent.mkdir(parents=True, exist_ok=True)
     for scene in arguments.scenes:
         rows.append(row_of(scene, arguments.before, arguments.after, arguments.pairs, options) | {"before": commit_of(arguments.before)})
         print(scene, rows[-1].get("ratio") or rows[-1].get("message"), flush=True)
-        with arguments.csv.open("w", newline="", encoding="utf-8") as stream:
-            writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(sorted(rows, key=lambda row: row["scene"]))
+        write_rows(arguments.csv, COLUMNS, rows)
     return 0
 
 

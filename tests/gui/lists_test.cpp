@@ -15,7 +15,7 @@ class Lists : public WorkbenchTest {
     }
 };
 
-TEST_F(Lists, OneEscapeClosesAListThatIsSearchedAndItsSearchIsForgotten) {
+TEST_F(Lists, CloseAtOneEscapeAndForgetTheirSearch) {
     start();
     for (const auto& [tab, list] :
          {std::pair{"Image", "image.texture"}, std::pair{"Study", "study.vary"}}) {

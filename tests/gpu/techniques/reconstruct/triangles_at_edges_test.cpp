@@ -26,13 +26,8 @@ const glm::dvec3 kHalf(0.3, 0.25, 0.2);
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
-scene::Scene boxUnderAir() {
-    return sceneFromText(R"(
-name = "box under air"
-[camera]
-position = [0.9, 1.0, 1.4]
-target = [0, 0.2, 0]
-vertical_fov_degrees = 45
+// Of kSun and kDirection, and what a sheet of no effect is made of.
+const std::string kSunThroughAir = R"(
 [[light]]
 name = "sun"
 type = "directional"
@@ -46,6 +41,16 @@ albedo = 0.5
 name = "air"
 type = "dielectric"
 ior = 1
+)";
+
+scene::Scene boxUnderAir() {
+    return sceneFromText(R"(
+name = "box under air"
+[camera]
+position = [0.9, 1.0, 1.4]
+target = [0, 0.2, 0]
+vertical_fov_degrees = 45
+)" + kSunThroughAir + R"(
 [[object]]
 name = "sheet"
 shape = "plane"
@@ -202,19 +207,7 @@ name = "many boxes"
 position = [0.0, 2.0, 1.2]
 target = [0, 0, 0]
 vertical_fov_degrees = 40
-[[light]]
-name = "sun"
-type = "directional"
-irradiance = 100
-direction = [-0.35, -0.9, -0.2]
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
-[[material]]
-name = "air"
-type = "dielectric"
-ior = 1
+)" + kSunThroughAir + R"(
 [[object]]
 name = "sheet"
 shape = "plane"
