@@ -22,7 +22,7 @@ from table import number
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OTHER = ROOT / "results/all_techniques/runs.csv"
-COLUMNS = ["scene", "technique", "emit.photons", "refine.finest", "status", "relMSE", "energy", "emitted", "traced", "ms", "ms, p95", "slowest passes, ms",
+COLUMNS = ["scene", "technique", "emit.photons", "refine.finest", "ledger", "status", "relMSE", "energy", "emitted", "traced", "ms", "ms, p95", "slowest passes, ms",
            "device", "version", "date", "other_processors"]
 SLOWEST = 3
 
@@ -87,9 +87,19 @@ def errors(rows: list[dict]) -> str:
     return "\n".join(lines)
 
 
+def photons(row: dict) -> str:
+    if row["technique"] == "vertex_caustics":
+        return "a vertex"
+    side = row["emit.photons"].split("x")[0]
+    if row["technique"] == "adaptive_caustic_map":
+        return f"cells of {row['refine.finest']}"
+    return f"{side}², no ledger" if row.get("ledger") == "false" else f"{side}²"
+
+
 def times(rows: list[dict]) -> str:
-    lines = ["| scene | technique | ms | p95 | slowest passes, ms |", "|" + " --- |" * 5]
-    lines += [f"| `{row['scene']}` | `{row['technique']}` | {number(row, 'ms'):.1f} | {number(row, 'ms, p95'):.1f} | {row['slowest passes, ms']} |"
+    lines = ["| scene | technique | photons | ms | p95 | slowest passes, ms |", "|" + " --- |" * 6]
+    lines += [f"| `{row['scene']}` | `{row['technique']}` | {photons(row)} | {number(row, 'ms'):.1f} | {number(row, 'ms, p95'):.1f} | "
+              f"{row['slowest passes, ms']} |"
               for row in rows]
     return "\n".join(lines)
 

@@ -71,6 +71,8 @@ const std::map<std::string, OptionSetter>& optionSetters() {
          [](RunOptions& options, const Found& found) { options.seed = found.as<long long>(); }},
         {"precise",
          [](RunOptions& options, const Found& found) { options.precise = found.as<bool>(); }},
+        {"ledger",
+         [](RunOptions& options, const Found& found) { options.hasLedger = found.as<bool>(); }},
         {"time_step", [](RunOptions& options,
                          const Found& found) { options.timeStepSeconds = found.as<double>(); }},
         {"reference",

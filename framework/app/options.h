@@ -42,6 +42,7 @@ struct RunOptions {
     long long seed = 1;
     double timeStepSeconds = 0.0;  // from frame to frame
     bool precise = false;
+    bool hasLedger = true;  // in the frames that are timed
     std::string reference = "none";
     long long referencePhotons = 1LL << 26;  // of auto, at least
     std::vector<std::string> saved;          // resources

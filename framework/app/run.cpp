@@ -59,6 +59,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     const double lastSeconds = series.secondsOf(series.frames - 1, scene.timeSeconds);
     if (lastSeconds != scene.timeSeconds) scene::setTime(scene, lastSeconds);
     RenderSettings settings = makeSettings(options.scene, registry, options.seed);
+    settings.hasLedger = options.hasLedger;
     const fs::path folder =
         options.out.empty()
             ? fs::path("results/runs") /
@@ -104,9 +105,11 @@ void runCommand(const RunOptions& options, const Registry& registry) {
                 progress.update(done);
                 run::throwIfInterrupted();
             };
-            // A capture and a model render the picture once more.
+            // A capture and a model render the picture once more, and a frame for measurement has a
+            // ledger.
+            const bool isOneEnough = !options.captures && !model && options.hasLedger;
             session.render(series, {{}, onFrame}, &reference,
-                           options.captures || model ? nullptr : &options.saved);
+                           isOneEnough ? &options.saved : nullptr);
         }
         if (options.captures) {
             captures.push_back(gl::captureFrame(folder, [&] { session.renderAgain(); }));

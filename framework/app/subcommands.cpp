@@ -40,6 +40,9 @@ Subcommand addRun(CLI::App& app, const Registry& registry) {
         ->capture_default_str();
     command.add_flag("--precise", options->precise,
                      "Times each pass with the device finished around it (software rasterisers)");
+    command.add_flag("--ledger,!--no-ledger", options->hasLedger,
+                     "Whether frames that are timed sum up the energy ledger; the one that is "
+                     "measured does");
     command
         .add_option("--reference", options->reference,
                     "Compare with the reference: none, auto (computed once and kept), a file of "

@@ -87,6 +87,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     preset("warmup", defaults_.warmup);
     preset("seed", defaults_.seed);
     preset("precise", false);
+    preset("ledger", true);
     preset("reference", defaults_.reference);
     preset("reference_photons", defaults_.referencePhotons);
     preset("disable", json::array());
@@ -116,6 +117,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     const bool hasTimeStep = values.contains("time_step");
     const double timeStep = hasTimeStep ? runValue(values["time_step"]).get<double>() : 0.0;
     const bool precise = runValue(values["precise"]).get<bool>();
+    const bool hasLedger = runValue(values["ledger"]).get<bool>();
     const auto [reference, referenceArgument] = this->reference(values["reference"]);
     result.settings = {{"schema", "kaustik.settings/1"},
                        {"scene", scene.identity},
@@ -136,6 +138,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     if (hasTimeStep) result.settings["time_step_s"] = timeStep;
     // So do those of the default rows.
     if (isAsPublished) result.settings["as_published"] = true;
+    if (!hasLedger) result.settings["ledger"] = false;
 
     const json& settings = result.settings;
     result.disablePlace = values["disable"].place;
@@ -163,12 +166,14 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     if (hasTimeStep)
         result.runArguments.push_back(option("time-step", fmt::format("{}", timeStep)));
     if (precise) result.runArguments.emplace_back("--precise");
+    if (!hasLedger) result.runArguments.emplace_back("--no-ledger");
     return result;
 }
 
 json Resolver::valueOf(const json& settings, const std::string& fullKey) {
     if (fullKey == "time") return settings.at("time_s");
     if (fullKey == "as_published") return settings.value("as_published", false);
+    if (fullKey == "ledger") return settings.value("ledger", true);
     if (fullKey == "time_step") return settings.value("time_step_s", json());
     if (fullKey == "disable") {
         const auto passes = settings.at("disable").get<std::vector<std::string>>();

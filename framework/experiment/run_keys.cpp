@@ -55,6 +55,7 @@ const std::vector<RunKey>& runKeys() {
         {"warmup", "Frames before them", "", Type::whole, 0, 1000000},
         {"seed", "Seed of everything random", "", Type::whole, INT64_MIN, INT64_MAX},
         {"precise", "Times each pass with the device finished around it", "", Type::flag},
+        {"ledger", "Whether frames that are timed sum up the energy ledger", "", Type::flag},
         {"time", "Time of the animation", "s", Type::number},
         {"time_step", "Time from frame to frame", "s", Type::number},
         {"reference", "none, auto, or a file beside the experiment", "", Type::text},

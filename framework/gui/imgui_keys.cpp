@@ -7,6 +7,10 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+
 namespace kaustik::gui {
 namespace {
 
@@ -40,6 +44,23 @@ ImGuiKey imguiKey(int key) {
 
 #endif
 
+// Of sliders and dragged numbers, which turn into a field; text and whole numbers are no such.
+bool isFractionTyped() {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    return context.ActiveId != 0 && context.TempInputId == context.ActiveId;
+}
+
+const char* (*readClipboard)(void*) = nullptr;  // the window system's
+
+const char* clipboardWithPoints(void* window) {
+    const char* text = readClipboard(window);
+    if (text == nullptr || !isFractionTyped()) return text;
+    static std::string withPoints;
+    withPoints = text;
+    std::replace(withPoints.begin(), withPoints.end(), ',', '.');
+    return withPoints.c_str();
+}
+
 }  // namespace
 
 void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
@@ -54,13 +75,16 @@ void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifier
 }
 
 void typePointForComma() {
-    const ImGuiContext& context = *ImGui::GetCurrentContext();
-    // Of sliders and dragged numbers, which turn into a field; text and whole numbers are no such.
-    const bool isFraction = context.ActiveId != 0 && context.TempInputId == context.ActiveId;
-    if (!isFraction) return;
+    if (!isFractionTyped()) return;
     for (ImWchar& character : ImGui::GetIO().InputQueueCharacters) {
         if (character == ',') character = '.';
     }
+}
+
+void pastePointForComma() {
+    ImGuiIO& io = ImGui::GetIO();
+    if (io.GetClipboardTextFn == &clipboardWithPoints) return;
+    readClipboard = std::exchange(io.GetClipboardTextFn, &clipboardWithPoints);
 }
 
 }  // namespace kaustik::gui

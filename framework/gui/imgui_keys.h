@@ -13,5 +13,7 @@ void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifier
 // While a slider's or a dragged number is typed, a comma of this frame becomes a point: Dear ImGui
 // would leave it out, and 0,05 would be 5. After ImGui::NewFrame().
 void typePointForComma();
+// The same, from now on, with what is pasted. After GLFW's side of Dear ImGui was set up.
+void pastePointForComma();
 
 }  // namespace kaustik::gui

@@ -66,7 +66,7 @@ ShownImage ofError(const ShownRequest& requested, const ReferenceState& referenc
     ShownImage image;
     image.resource = kErrorResource;
     image.source = "error";
-    image.content.quantity = "caustic irradiance minus that of the reference, mean of the channels";
+    image.content.quantity = "caustic irradiance less the reference's, mean of the channels";
     image.content.kind = ValueKind::single;
     image.content.space = TextureSpace::eye;
     image.content.channels = {{"error", "W/m²"}};

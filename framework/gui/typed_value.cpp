@@ -37,6 +37,13 @@ std::string nearestSentence(const params::NamedField& named, const std::string& 
 
 }  // namespace
 
+double nearestValue(const params::Field& field, double number) {
+    if (field.values.empty()) return std::clamp(number, field.minimum, field.maximum);
+    const auto distance = [&](int value) { return std::abs(value - number); };
+    return *std::min_element(field.values.begin(), field.values.end(),
+                             [&](int a, int b) { return distance(a) < distance(b); });
+}
+
 TypedValue typedValue(const params::NamedField& named, const std::string& text) {
     // A place of its own, so that the settings stay as they are.
     int integer = 0;
@@ -56,8 +63,9 @@ TypedValue typedValue(const params::NamedField& named, const std::string& text) 
         const std::optional<double> number = numberOf(typed);
         const bool isOutside =
             number && (*number < named.field.minimum || *number > named.field.maximum);
-        if (!isOutside || (isInteger && *number != std::floor(*number))) return {"", error.what()};
-        const double nearest = std::clamp(*number, named.field.minimum, named.field.maximum);
+        const bool hasNearest = isOutside || (number && !named.field.values.empty());
+        if (!hasNearest || (isInteger && *number != std::floor(*number))) return {"", error.what()};
+        const double nearest = nearestValue(named.field, *number);
         const std::string taken = isInteger ? fmt::format("{}", static_cast<int>(nearest))
                                             : fmt::format("{}", static_cast<float>(nearest));
         return {taken, nearestSentence(named, typed, taken)};

@@ -18,123 +18,27 @@
 namespace kaustik::gui {
 namespace {
 
-template <class... Ts>
-struct Overloaded : Ts... {
-    using Ts::operator()...;
-};
-
 constexpr std::size_t kOptionsToSearch = 16;
 
-// The number's field that is being typed into; one at a time.
-struct Typing {
-    ImGuiID field = 0;
-    int frame = 0;  // in which it was drawn last
-    bool isNew = false;
-    std::string text;
-};
-
-ParameterChange changeBy(const TypedValue& typed) {
-    return {!typed.text.empty(), typed.text, typed.problem};
+// Its beginning, as much as there is room for with the mark that there is more.
+std::string withEllipsis(const std::string& text, float room) {
+    constexpr const char* kMore = "...";
+    const ImFont& font = *ImGui::GetFont();
+    const char* end = nullptr;
+    font.CalcTextSizeA(ImGui::GetFontSize(), room - ImGui::CalcTextSize(kMore).x, 0.0f,
+                       text.c_str(), nullptr, &end);
+    return text.substr(0, static_cast<std::size_t>(end - text.c_str())) + kMore;
 }
 
-thread_local Typing typing;
-
-// After its slider: Return on one that the keyboard is on begins to type, as Ctrl and a click do.
-void typeOnReturn(const params::NamedField& named, const std::string& id) {
-    if (!ImGui::IsItemFocused() || ImGui::IsItemActive()) return;
-    if (!ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) return;
-    typing = {ImGui::GetID(id.c_str()), ImGui::GetFrameCount(), true, named.field.text()};
-}
-
-// In a slider's place while its number is typed: the slider's own field leaves out what it does not
-// know, and reads 0,05 as 5. Whether it is there; Ctrl and a click on the slider begin it.
-bool typeNumber(const params::NamedField& named, const std::string& id, ParameterChange& change) {
-    const ImGuiID field = ImGui::GetID(id.c_str());
-    // One that was not drawn for a frame has lost what was typed.
-    if (typing.field == field && ImGui::GetFrameCount() > typing.frame + 1) typing.field = 0;
-    if (typing.field != field) {
-        const ImVec2 low = ImGui::GetCursorScreenPos();
-        const ImVec2 high(low.x + ImGui::CalcItemWidth(), low.y + ImGui::GetFrameHeight());
-        const bool begins = ImGui::GetIO().KeyCtrl && ImGui::IsMouseClicked(0) &&
-                            ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high);
-        if (!begins) return false;
-        typing = {field, 0, true, named.field.text()};
-    }
-    typing.frame = ImGui::GetFrameCount();
-    if (typing.isNew) ImGui::SetKeyboardFocusHere();
-    const bool isEntered =
-        ImGui::InputText((id + ".typed").c_str(), &typing.text,
-                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
-    const bool isOver = isEntered || ImGui::IsItemDeactivated();
-    if (isOver && !typing.isNew) {
-        typing.field = 0;
-        // Escape has put back what was there.
-        change.problem = "";
-        if (typing.text != named.field.text()) change = changeBy(typedValue(named, typing.text));
-    }
-    if (ImGui::IsItemActive()) typing.isNew = false;
-    return true;
+void showTooltip(const std::string& text) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
 }
 
 }  // namespace
-
-ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
-                              const std::string& label, const std::string& noEffect) {
-    const params::Field& field = named.field;
-    const std::string id = label + "##" + named.fullName;
-    const std::string control = "parameter." + named.fullName;
-    ParameterChange change;
-    const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
-        (isLogarithmic(field) ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-    std::visit(
-        Overloaded{[&](const bool* v) {
-                       bool value = *v;
-                       if (ImGui::Checkbox(id.c_str(), &value))
-                           change = {true, value ? "true" : "false", ""};
-                   },
-                   [&](const int* v) {
-                       if (typeNumber(named, id, change)) return;
-                       int value = *v;
-                       if (ImGui::SliderInt(id.c_str(), &value, static_cast<int>(field.minimum),
-                                            static_cast<int>(field.maximum), "%d", flags)) {
-                           change = {true, fmt::format("{}", value), ""};
-                       }
-                       typeOnReturn(named, id);
-                   },
-                   [&](const float* v) {
-                       if (typeNumber(named, id, change)) return;
-                       float value = *v;
-                       if (ImGui::SliderFloat(id.c_str(), &value, static_cast<float>(field.minimum),
-                                              static_cast<float>(field.maximum), "%.5g", flags)) {
-                           change = {true, fmt::format("{}", value), ""};
-                       }
-                       typeOnReturn(named, id);
-                   },
-                   [&](const params::Extent* v) {
-                       params::Extent value = *v;
-                       // What is out of range is said, and not only taken back.
-                       if (inputExtent(id.c_str(), value, std::numeric_limits<int>::min(),
-                                       std::numeric_limits<int>::max()))
-                           change = changeBy(typedExtent(named, value));
-                   },
-                   [&](params::ChoiceRef v) {
-                       int index = *v.index;
-                       if (choose(bench, id.c_str(), field.choices, index, control))
-                           change = {true, field.choices[static_cast<std::size_t>(index)], ""};
-                   }},
-        field.target);
-    bench.map.control(control, field.text());
-    std::string explanation = fmt::format("{}\n{}", named.fullName, field.sentence);
-    if (!field.unit.empty()) explanation += fmt::format("\nUnit: {}", field.unit);
-    if (!field.rangeText().empty()) explanation += fmt::format("\nRange: {}", field.rangeText());
-    explanation += fmt::format("\nDefault: {}", named.defaultText);
-    if (!noEffect.empty()) explanation += "\n" + noEffect;
-    if (std::holds_alternative<float*>(field.target) || std::holds_alternative<int*>(field.target))
-        explanation += "\nCtrl and click, or Return, to type a value.";
-    tooltip(explanation);
-    return change;
-}
 
 bool inputExtent(const char* label, params::Extent& value, int minimum, int maximum) {
     // What is typed into one side must outlive the step to the other; only one is typed at a time.
@@ -218,28 +122,19 @@ void drawTableButtons(Bench& bench, const std::string& name, const Table& table)
 }
 
 void tooltip(const std::string& text) {
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 32.0f);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) showTooltip(text);
 }
 
 void cutLine(const std::string& text, ImVec2 at, ImU32 color, float room) {
     const float height = ImGui::GetTextLineHeight();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const bool isCut = ImGui::CalcTextSize(text.c_str()).x > room;
     draw.PushClipRect(at, {at.x + room, at.y + height}, true);
-    draw.AddText(at, color, text.c_str());
+    draw.AddText(at, color, (isCut ? withEllipsis(text, room) : text).c_str());
     draw.PopClipRect();
-    if (ImGui::CalcTextSize(text.c_str()).x > room &&
-        ImGui::IsMouseHoveringRect(at, {at.x + room, at.y + height}) && ImGui::IsWindowHovered()) {
-        ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40.0f);
-        ImGui::TextUnformatted(text.c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::EndTooltip();
-    }
+    if (isCut && ImGui::IsMouseHoveringRect(at, {at.x + room, at.y + height}) &&
+        ImGui::IsWindowHovered())
+        showTooltip(text);
 }
 
 void sameLineWithRoom(float width) {
@@ -310,13 +205,6 @@ bool choose(Bench& bench, const char* label, const std::vector<std::string>& opt
     }
     ImGui::EndCombo();
     return isChanged;
-}
-
-bool isLogarithmic(const params::Field& field) {
-    // A range that begins at 0 does so for "none" or "as needed"; 1 is its first step.
-    const double minimum = field.minimum == 0.0 ? 1.0 : field.minimum;
-    constexpr double kWide = 10.0;
-    return minimum > 0.0 && field.maximum > kWide * minimum;
 }
 
 void chooseVariant(Bench& bench, const std::string& panel) {

@@ -18,18 +18,6 @@ namespace kaustik::gui {
 // Of what is wrong.
 inline const ImVec4 kProblemColor(1.0f, 0.45f, 0.4f, 1.0f);
 
-// A parameter with the control that its declaration asks for: true, with its new text, when the
-// user has changed it. `noEffect`: the sentence that says why it has none now, where it has none.
-struct ParameterChange {
-    bool changed = false;
-    std::string text;
-    // What there is to say of what the user has just done (typed_value.h); none where nothing was.
-    std::optional<std::string> problem = {};
-};
-[[nodiscard]] ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
-                                            const std::string& label,
-                                            const std::string& noEffect = "");
-
 // A width and a height to type, taken over when both are done with; true when they have changed.
 [[nodiscard]] bool inputExtent(const char* label, params::Extent& value, int minimum, int maximum);
 
@@ -77,10 +65,6 @@ void searchField(Bench& bench, std::string& filter, const std::string& name);
 // Draws a line that says which of the two variants the panel is of, and changes it, where there are
 // two. `panel` begins its names in the screen map.
 void chooseVariant(Bench& bench, const std::string& panel);
-
-// Whether a parameter's range is so wide that the middle of a straight slider would be far from all
-// that is usual.
-[[nodiscard]] bool isLogarithmic(const params::Field& field);
 
 // What a pass took in the newest frames; null where that is not known.
 [[nodiscard]] const report::PassTimes* timesOf(const VariantResult& result,

@@ -123,6 +123,7 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
     style.ScaleAllSizes(scale_);
     loadFont();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    pastePointForComma();
     // Instead of Dear ImGui's own, which takes keys by their place: Ctrl + A in a field is a short
     // cut, too.
     glfwSetKeyCallback(window_,

@@ -71,7 +71,10 @@ std::string Field::rangeText() const {
                    [&](Extent*) {
                        return fmt::format("{0:.0f}x{0:.0f} to {1:.0f}x{1:.0f}", minimum, maximum);
                    },
-                   [&](auto*) { return numberText(minimum) + " to " + numberText(maximum); }},
+                   [&](auto*) {
+                       if (!values.empty()) return fmt::format("{}", fmt::join(values, " | "));
+                       return numberText(minimum) + " to " + numberText(maximum);
+                   }},
         target);
 }
 
@@ -104,53 +107,62 @@ Field& Field::when(bool hasEffect, const std::string& otherwise) {
     return *this;
 }
 
+Field& Field::only(std::vector<int> theseValues) {
+    assert(std::holds_alternative<int*>(target) && "only a whole number can be one of a list");
+    values = std::move(theseValues);
+    return *this;
+}
+
 void Field::set(std::string_view text, std::string_view fullName, std::string_view where) const {
     const std::string limits = numberText(minimum) + " to " + numberText(maximum);
     const std::string number =
         fmt::format("number from {}{}{}", limits, unit.empty() ? "" : " ", unit);
     std::visit(
-        Overloaded{[&](bool* v) {
-                       const auto parsed = parseBool(text);
-                       if (!parsed) refuse(where, fullName, text, "true or false");
-                       *v = *parsed;
-                   },
-                   [&](int* v) {
-                       const auto parsed = parseNumber<int>(text);
-                       if (!parsed || *parsed < minimum || *parsed > maximum) {
-                           refuse(where, fullName, text, "a whole " + number);
-                       }
-                       *v = *parsed;
-                   },
-                   [&](float* v) {
-                       const auto parsed = parseNumber<float>(text);
-                       // Compared as floats, since the limits were declared as floats.
-                       const bool inside = parsed && std::isfinite(*parsed) &&
-                                           *parsed >= static_cast<float>(minimum) &&
-                                           *parsed <= static_cast<float>(maximum);
-                       if (!inside) refuse(where, fullName, text, "a " + number);
-                       *v = *parsed;
-                   },
-                   [&](Extent* v) {
-                       const auto parsed = parseExtent(text);
-                       const auto inside = [&](int side) {
-                           return side >= minimum && side <= maximum;
-                       };
-                       if (!parsed || !inside(parsed->width) || !inside(parsed->height)) {
-                           refuse(where, fullName, text, "WIDTHxHEIGHT, each from " + limits);
-                       }
-                       *v = *parsed;
-                   },
-                   [&](ChoiceRef v) {
-                       for (std::size_t i = 0; i < choices.size(); ++i) {
-                           if (choices[i] == text) {
-                               *v.index = static_cast<int>(i);
-                               return;
-                           }
-                       }
-                       throw ConfigError(fmt::format("{}: {} cannot be '{}'{}; it takes {}.", where,
-                                                     fullName, text, didYouMean(text, choices),
-                                                     fmt::join(choices, ", ")));
-                   }},
+        Overloaded{
+            [&](bool* v) {
+                const auto parsed = parseBool(text);
+                if (!parsed) refuse(where, fullName, text, "true or false");
+                *v = *parsed;
+            },
+            [&](int* v) {
+                const auto parsed = parseNumber<int>(text);
+                if (!parsed || *parsed < minimum || *parsed > maximum) {
+                    refuse(where, fullName, text, "a whole " + number);
+                }
+                const bool isListed = values.empty() || std::find(values.begin(), values.end(),
+                                                                  *parsed) != values.end();
+                if (!isListed)
+                    refuse(where, fullName, text, fmt::format("{}", fmt::join(values, ", ")));
+                *v = *parsed;
+            },
+            [&](float* v) {
+                const auto parsed = parseNumber<float>(text);
+                // Compared as floats, since the limits were declared as floats.
+                const bool inside = parsed && std::isfinite(*parsed) &&
+                                    *parsed >= static_cast<float>(minimum) &&
+                                    *parsed <= static_cast<float>(maximum);
+                if (!inside) refuse(where, fullName, text, "a " + number);
+                *v = *parsed;
+            },
+            [&](Extent* v) {
+                const auto parsed = parseExtent(text);
+                const auto inside = [&](int side) { return side >= minimum && side <= maximum; };
+                if (!parsed || !inside(parsed->width) || !inside(parsed->height)) {
+                    refuse(where, fullName, text, "WIDTHxHEIGHT, each from " + limits);
+                }
+                *v = *parsed;
+            },
+            [&](ChoiceRef v) {
+                for (std::size_t i = 0; i < choices.size(); ++i) {
+                    if (choices[i] == text) {
+                        *v.index = static_cast<int>(i);
+                        return;
+                    }
+                }
+                throw ConfigError(fmt::format("{}: {} cannot be '{}'{}; it takes {}.", where,
+                                              fullName, text, didYouMean(text, choices),
+                                              fmt::join(choices, ", ")));
+            }},
         target);
 }
 

@@ -66,7 +66,8 @@ struct Field {
     double minimum = 0.0;  // numbers and extents (each side)
     double maximum = 0.0;
     std::vector<std::string> choices;
-    std::string formerName{};  // within its scope; "" where it was never called otherwise
+    std::vector<int> values = {};  // the only ones that an int takes; empty: all of its range
+    std::string formerName{};      // within its scope; "" where it was never called otherwise
     std::vector<Condition> conditions = {};
     std::string obstacle = {};  // as a Condition says it, by other values of the same struct
 
@@ -78,9 +79,12 @@ struct Field {
     Field& when(Condition whyNoEffect);
     Field& when(bool hasEffect, const std::string& otherwise);
 
+    // Of an int: these values alone, in ascending order, and what lies between them is refused.
+    Field& only(std::vector<int> values);
+
     // "float", "int", "bool", "WxH" or "choice".
     [[nodiscard]] std::string typeName() const;
-    // "0.1 to 8", "1x1 to 64x64", "a | b", "true | false".
+    // "0.1 to 8", "1x1 to 64x64", "a | b", "true | false", "1 | 4 | 9".
     [[nodiscard]] std::string rangeText() const;
     [[nodiscard]] std::string text() const;
     [[nodiscard]] nlohmann::json json() const;

@@ -147,16 +147,17 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
               samplesPerSideOf(settings_)},
       programs_(registry.shaderFolders()),
       executor_(context, programs_) {
-    bindToAll();
+    bindToAll(Purpose::measurement);
     context_.check();
 }
 
 // By the names of include/views/view.glsl, bands.glsl, surface_data.glsl, lights.glsl,
 // scene_images.glsl and ledger.glsl.
-void Renderer::bindToAll() {
+void Renderer::bindToAll(Purpose purpose) {
     std::vector<std::string> defines;
     if (scene::hasNormalMaps(scene_)) defines.emplace_back("NORMAL_MAPS");
     if (!scene_.bands.empty()) defines.emplace_back("BANDS");
+    if (purpose == Purpose::picture && !settings_.hasLedger) defines.emplace_back("NO_LEDGER");
     executor_.bindToAll({{{"View", &viewBlock_}, {"Bands", &bands_}},
                          {{"Materials", &gpuScene_.materials()}, {"Lights", &lights_}},
                          {{"sceneImages", &gpuScene_.images()}},
@@ -182,7 +183,7 @@ void Renderer::update(RenderSettings settings) {
     needs_ = sceneNeeds(scene_);
     needs_.measuredDepthComplexity = measuredDepthComplexity;
     ledgerQuantumWatts_ = ledgerQuantum(scene_);
-    bindToAll();
+    bindToAll(Purpose::measurement);
     context_.check();
 }
 
@@ -369,6 +370,7 @@ void Renderer::requestExits() {
 }
 
 void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {
+    bindToAll(purpose);
     executor_.prepare(compile(purpose, resources));
     if (!startedFor_.insert(purpose).second) return;
     std::vector<gl::ProgramKey> keys;

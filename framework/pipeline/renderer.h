@@ -27,6 +27,8 @@ struct RenderSettings {
     int width = 800;
     int height = 600;
     std::uint64_t seed = 1;  // of everything random; equal ones give equal bits
+    // Whether frames for pictures sum up the ledger too, which those for measurement always do.
+    bool hasLedger = true;
     // Null unless the first hits of photons are, or are to be, found on tiles of the screen.
     std::shared_ptr<const TileFrame> tiles = {};
 };
@@ -125,7 +127,7 @@ class Renderer {
 
     [[nodiscard]] std::string whyNoEffect(const std::string& name,
                                           const graph::Compiled& compiled) const;
-    void bindToAll();
+    void bindToAll(Purpose purpose);
     void meanOverPixelsOfCaustic(FrameBuilder& frame);
     void requestForMaps();
     void requestForAudit();

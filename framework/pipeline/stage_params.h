@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "framework/core/error.h"
 #include "framework/pipeline/effect.h"
 
@@ -14,22 +16,15 @@ struct EyeParams {
     template <class R>
     void reflect(R& r) {
         r.field(samples, "samples",
-                "What the picture's pixels are the mean of: 1, 4, 9, 16, 25, 36, 49 or 64 samples, "
-                "squares of pixels of a frame that is rendered with so many times as many: all "
-                "edges are anti-aliased, and whatever works on the screen works on a finer one. "
-                "Lengths in pixels are of the samples",
-                "", params::range(1, 64));
+                "What the picture's pixels are the mean of: so many samples, squares of pixels of "
+                "a frame that is rendered with so many times as many: all edges are anti-aliased, "
+                "and whatever works on the screen works on a finer one. Lengths in pixels are of "
+                "the samples",
+                "", params::range(1, 64))
+            .only({1, 4, 9, 16, 25, 36, 49, 64});
     }
-    // Throws ConfigError for what is no square.
     [[nodiscard]] int perSide() const {
-        int side = 1;
-        while ((side + 1) * (side + 1) <= samples)
-            ++side;
-        if (side * side != samples) {
-            throw ConfigError(fmt::format("eye.samples: {} samples make no square; take {} or {}.",
-                                          samples, side * side, (side + 1) * (side + 1)));
-        }
-        return side;
+        return static_cast<int>(std::lround(std::sqrt(static_cast<double>(samples))));
     }
 };
 

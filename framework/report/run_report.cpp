@@ -274,6 +274,8 @@ void reflect(F& f, const Timing& timing) {
     f.field("of_measured_frame", timing.isOfMeasuredFrame,
             "Whether one frame was asked for, without a warm-up, which then is also the one that "
             "is measured and judged: times, passes and memory hold what only that takes");
+    f.field("ledger", timing.hasLedger,
+            "Whether they summed up the energy ledger, as the frame that is measured does");
 }
 template <class F>
 void reflect(F& f, const ReportTable& report) {

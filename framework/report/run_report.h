@@ -27,6 +27,7 @@ struct Timing {
     // That were left before a loop's end (gl::Executor::takeCutShort): among the samples.
     std::size_t cutShortFrames = 0;
     bool isOfMeasuredFrame = false;  // with all that only a measurement asks for
+    bool hasLedger = true;           // whether they summed up the energy ledger
 };
 
 // Of a run that an error has ended before it was judged.

@@ -66,6 +66,7 @@ json describe(const params::NamedField& named) {
     } else if (entry["type"] != "bool") {
         entry["minimum"] = json::parse(numberText(named.field.minimum));
         entry["maximum"] = json::parse(numberText(named.field.maximum));
+        if (!named.field.values.empty()) entry["values"] = named.field.values;
     }
     return entry;
 }

@@ -263,7 +263,8 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         record_.timing = {.date = date,
                           .otherProcessors = otherProcessors(processors, processorTimes()),
                           .droppedFrames = timer_.droppedFrames() - droppedBefore,
-                          .isOfMeasuredFrame = measuredFrame_.has_value()};
+                          .isOfMeasuredFrame = measuredFrame_.has_value(),
+                          .hasLedger = settings_.hasLedger || measuredFrame_.has_value()};
     };
     try {
         for (int frame = 0; frame < total; ++frame) {

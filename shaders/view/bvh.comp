@@ -98,7 +98,7 @@ bool isShadowed(Seen seen, vec3 toLight, float reach) {
     raysHits = kHitsBlockers;
     startTriangle = seen.hit.triangle;
     resolvedNow = localRounding + 4e-6 * length(seen.positionVs);
-    return traceBvh(ray, reach).triangle != kBvhNone;
+    return isBlocked(ray, reach);
 }
 
 // Of a receiver that the picture does not show, back along the ray.

@@ -53,7 +53,7 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
               "layers", "limits", "as_published", "violations", "timing", "programs"}));
     Keys timing = keysOf(report.at("timing"));
     timing.erase("other_processors");  // of moments it is not known
-    EXPECT_EQ(timing, (Keys{"cut_short_frames", "date", "dropped_frames", "measuring_ms",
+    EXPECT_EQ(timing, (Keys{"cut_short_frames", "date", "dropped_frames", "ledger", "measuring_ms",
                             "of_measured_frame"}));
     EXPECT_EQ(report.at("timing").at("dropped_frames"), 0);
     EXPECT_GT(report.at("timing").at("measuring_ms").get<double>(), 0.0);

@@ -162,6 +162,17 @@ TEST_F(RunCommand, TheSameTimeTwiceGivesTheSameCausticBitForBit) {
     EXPECT_FLOAT_EQ(report("first").at("time_s").get<float>(), 0.3f);
 }
 
+// What is timed then is the same light, and the frame that is measured has its ledger all the same.
+TEST_F(RunCommand, TimesFramesWithoutTheLedgerWhereAsked) {
+    static_cast<void>(renderWater({}, "with"));
+    static_cast<void>(renderWater({"--no-ledger"}, "without"));
+    EXPECT_TRUE(contents("with/caustic.exr") == contents("without/caustic.exr"));
+    EXPECT_EQ(report("with").at("timing").at("ledger"), true);
+    EXPECT_EQ(report("without").at("timing").at("ledger"), false);
+    EXPECT_EQ(report("with").at("energy"), report("without").at("energy"));
+    EXPECT_GT(report("without").at("energy").at("emitted_w").get<double>(), 0.0);
+}
+
 TEST_F(RunCommand, AnotherTimeMovesTheWater) {
     static_cast<void>(renderWater({"--time", "0"}, "first"));
     static_cast<void>(renderWater({"--time", "0.3"}, "second"));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel Image and what is read off the picture: textures, layers, values of pixels, values that
-// are no numbers, photons.
+// The panel Image and what is read off the picture: textures, layers, values of pixels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 
 #include "framework/core/files.h"
 #include "framework/image/image.h"
-#include "tests/gui/shader_copies.h"
 #include "tests/gui/workbench_fixture.h"
 
 namespace kaustik::test {
@@ -19,12 +17,6 @@ using nlohmann::json;
 
 class ImagePanel : public WorkbenchTest {
   protected:
-    static json showing(const std::string& resource, int layer = 0) {
-        json kept = savedStateWith(smallDocument());
-        kept["view"]["resource"] = resource;
-        kept["view"]["layer"] = layer;
-        return kept;
-    }
     // What the line under the picture says of the pixel that the mouse is on: "(x, y)  v v v".
     [[nodiscard]] std::vector<double> valuesUnderMouse() {
         std::istringstream line(bench->value("picture.value"));
@@ -129,7 +121,7 @@ TEST_F(ImagePanel, MipsOfAPyramidAreInTheListByName) {
 }
 
 TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
-    json kept = showing("layers.depth", 6);
+    json kept = savedStateShowing("layers.depth", 6);
     kept["document"]["variant"]["set"]["layers.count"] = "8";
     start(kept);
     open("Image");
@@ -152,7 +144,7 @@ TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
 }
 
 TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
-    start(showing("shadow.maps"));
+    start(savedStateShowing("shadow.maps"));
     EXPECT_EQ(bench->value("shown"), "asked");
     open("Technique");
     choose("stage.shadow", "rays");
@@ -167,7 +159,7 @@ TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
 
 // What is not seen by the eye has nothing drawn over it, and no hand on it moves the eye.
 TEST_F(ImagePanel, AMapIsNoViewOfTheEye) {
-    json kept = showing("shadow.maps");
+    json kept = savedStateShowing("shadow.maps");
     kept["view"]["shows_lights"] = true;
     start(kept);
     EXPECT_TRUE(says("picture.caption", "depth, m · a light's view"));
@@ -186,7 +178,7 @@ TEST_F(ImagePanel, AMapIsNoViewOfTheEye) {
 
 // Stored light is light, and no words of fixed point: all of it is what the ledger has deposited.
 TEST_F(ImagePanel, StoredLightIsShownInWatts) {
-    start(showing("caustic.flux"));
+    start(savedStateShowing("caustic.flux"));
     open("Image");
     EXPECT_FALSE(bench->has("image.layer")) << "words are no layers";
     EXPECT_TRUE(says("picture.caption", "flux that has arrived, W · the eye's view"));
@@ -231,7 +223,7 @@ TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
 }
 
 TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
-    json kept = showing("caustic.irradiance");
+    json kept = savedStateShowing("caustic.irradiance");
     kept["view"]["looks"]["caustic.irradiance"] = {{"exposure_automatic", false}};
     start(kept);
     open("Image");
@@ -281,7 +273,7 @@ TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
 }
 
 TEST_F(ImagePanel, TheWheelZoomsToThePixelUnderTheMouseUntilItsValuesAreWritten) {
-    start(showing("caustic.irradiance"));
+    start(savedStateShowing("caustic.irradiance"));
     const Image whole = seenPicture();
     const Spot spot = {0.6, 0.55};
     bench->hover("picture", spot);
@@ -304,158 +296,6 @@ TEST_F(ImagePanel, TheWheelZoomsToThePixelUnderTheMouseUntilItsValuesAreWritten)
     EXPECT_EQ(bench->control("picture.image").w, 64.0);
     bench->click("toolbar.fit");
     EXPECT_EQ(largestDifference(seenPicture(), whole), 0.0);
-}
-
-// What composes the receivers' radiance for a `pixel`, edited while it is looked at.
-class EditedShaders : public ImagePanel {
-  protected:
-    // Puts a line at its beginning.
-    void edit(const std::string& line) const {
-        shaders.write(kShader,
-                      original.substr(0, place()) + line + "\n" + original.substr(place()));
-    }
-    [[nodiscard]] long lineOfEdit() const {
-        return 1 +
-               std::count(original.begin(), original.begin() + static_cast<long>(place()), '\n');
-    }
-    [[nodiscard]] std::size_t place() const {
-        return original.find('\n', original.find("ivec2 pixel = ")) + 1;
-    }
-    void start(const std::string& resource = "compose.receiver_radiance") {
-        json kept = showing(resource);
-        kept["view"]["looks"][resource] = {{"exposure_automatic", false},
-                                           {"exposure", -8.0}};  // up to 256 W/m²/sr are told apart
-        WorkbenchTest::start(kept, shaders.environment());
-        open("Image");
-    }
-    void untilShaderIs(bool isBroken) {
-        bench->waitFor(isBroken ? "the shader's error" : "a mended shader",
-                       [&](const json& screen) {
-                           return screen.at("controls").contains("status.shader") == isBroken;
-                       });
-    }
-    void untilNotFinite(const std::string& count) {
-        bench->waitFor("so many values that are not finite: " + count, [&](const json& screen) {
-            return screen.at("controls").at("image.not_finite").at("value") == count;
-        });
-    }
-    // A column of NaN in red, half of it of infinity in green: 48 + 24 values.
-    static constexpr const char* kNotFinite =
-        "if (pixel.x == 5) {\n"
-        "    radiance = vec4(intBitsToFloat(0x7fc00000), 1.0, 1.0, 1.0);\n"
-        "    if (pixel.y % 2 == 0) radiance.g = intBitsToFloat(0x7f800000);\n"
-        "    return;\n"
-        "}";
-
-    static constexpr const char* kShader = "compose/picture_radiance.frag";
-    ShaderCopies shaders{folder / "root"};
-    std::string original = shaders.read(kShader);
-};
-
-TEST_F(EditedShaders, ValuesThatAreNoNumbersAreFlaggedAndCounted) {
-    start();
-    EXPECT_EQ(bench->value("image.not_finite"), "0");
-    edit(kNotFinite);
-    untilNotFinite("72");
-    bench->keepScreenshot("image-not-finite");
-    edit("");
-    untilNotFinite("0");
-}
-
-// Whose own values are colours, of which all are numbers.
-TEST_F(EditedShaders, ThePictureOfSuchValuesIsNotSaidToBeFinite) {
-    start("");
-    EXPECT_EQ(bench->value("image.not_finite"), "0");
-    edit(kNotFinite);
-    // As many, or more where they are seen through the water, too.
-    bench->waitFor("values that are not finite", [](const json& screen) {
-        return std::stoi(
-                   screen.at("controls").at("image.not_finite").at("value").get<std::string>()) >=
-               72;
-    });
-    bench->keepScreenshot("image-not-finite-picture");
-}
-
-TEST_F(EditedShaders, ABrokenShaderIsExplainedAndTheLastGoodOneStaysInUse) {
-    start();
-    const Image before = seenPicture();
-    edit("radiance = noSuchThing;");
-    untilShaderIs(true);
-    EXPECT_TRUE(says("status.shader", "shaders/compose/picture_radiance.frag"));
-    EXPECT_TRUE(says("status.shader", fmt::format(":{}:", lineOfEdit())))
-        << bench->value("status.shader");
-    EXPECT_TRUE(says("status.shader", "noSuchThing"));
-    untilSettled();
-    EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
-    bench->keepScreenshot("image-broken-shader");
-    edit("radiance = vec4(64.0); return;");
-    untilShaderIs(false);
-    untilSettled();
-    const Image grey = seenPicture();
-    EXPECT_EQ(std::count(grey.values.begin(), grey.values.end(), grey.values.front()),
-              static_cast<std::ptrdiff_t>(grey.values.size()));
-    edit("");
-    bench->waitFor("the picture of before",
-                   [&](const json&) { return largestDifference(seenPicture(), before) == 0.0; });
-}
-
-// Where the photons of a run went that another process made, with the camera of the scene's file.
-class ProbedPhotons : public ImagePanel {
-  protected:
-    ProbedPhotons() {
-        renderSmall({"--save", "hits.position_1", "--save", "hits.flux_1", "--out", "hits"});
-        const Image positions = readImage(folder / "hits" / ("hits.position_1" + extension));
-        const Image fluxes = readImage(folder / "hits" / ("hits.flux_1" + extension));
-        constexpr float reachedReceiver = 2.0f;
-        const double tangent = std::tan(45.0 / 2.0 * std::acos(-1.0) / 180.0);
-        for (int y = 0; y < positions.height; ++y) {
-            for (int x = 0; x < positions.width; ++x) {
-                if (fluxes.at(x, y, 3) != reachedReceiver) continue;
-                const auto at = [&](int c) { return static_cast<double>(positions.at(x, y, c)); };
-                const double scale = 24.0 / (tangent * -at(2));
-                landings.emplace_back(32.0 + scale * at(0), 24.0 - scale * at(1));
-            }
-        }
-    }
-    [[nodiscard]] std::ptrdiff_t landedWithin(double radius, int x, int y) const {
-        return std::count_if(landings.begin(), landings.end(), [&](const auto& landing) {
-            return std::hypot(landing.first - x - 0.5, landing.second - y - 0.5) <= radius;
-        });
-    }
-    [[nodiscard]] long probed(int x, int y) {
-        bench->click("picture.image", kLeftButton, pixel(x, y));
-        untilSettled();
-        bench->waitFor("photons", [](const json& screen) {
-            return screen.at("controls").contains("image.probe_landed");
-        });
-        return std::stol(bench->value("image.probe_landed"));
-    }
-
-    std::string extension = floatImageExtension();
-    std::vector<std::pair<double, double>> landings;
-};
-
-TEST_F(ProbedPhotons, AreAsManyAsLandedNearThePixel) {
-    ASSERT_GT(landings.size(), 500u);
-    start();
-    open("Image");
-    bench->hover("picture");
-    bench->key("p");
-    EXPECT_EQ(bench->value("image.probe"), "on");
-    for (const auto& [x, y] : {std::pair{32, 25}, std::pair{26, 30}, std::pair{37, 20}}) {
-        EXPECT_EQ(probed(x, y), landedWithin(1.0, x, y)) << x << ", " << y;
-    }
-    EXPECT_EQ(probed(2, 2), 0) << "beside the scene";
-    bench->typeInto("image.probe_radius", "4", Entry::controlClick);
-    const long many = probed(32, 25);
-    EXPECT_EQ(many, landedWithin(4.0, 32, 25));
-    EXPECT_GT(many, landedWithin(1.0, 32, 25));
-    bench->keepScreenshot("image-photons");
-    // Their paths are drawn over the picture.
-    const Image ways = seenPicture();
-    bench->key("p");
-    EXPECT_GT(largestDifference(seenPicture(), ways), 0.1);
-    EXPECT_FALSE(document().at("edits").contains("camera"));
 }
 
 }  // namespace

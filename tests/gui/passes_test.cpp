@@ -49,6 +49,10 @@ TEST_F(PassesPanel, ListsTheGraphInItsOrderWithTheReasonsOfWhatWasSkipped) {
     EXPECT_EQ(state("media.lines"), "skipped");
     EXPECT_EQ(bench->value("passes.why.media.lines"), "the scene has no medium that scatters");
     EXPECT_FALSE(bench->has("passes.on.media.lines"));
+    // Where a line is too short for the reason it takes more, within the panel.
+    const Rectangle why = bench->control("passes.why.media.lines");
+    EXPECT_GT(why.h, 1.5 * bench->control("passes.name.media.lines").h);
+    EXPECT_LE(why.x + why.w, bench->control("picture.pane").x);
 
     bench->wheel("passes.name.trace.hierarchical", -20);
     const std::vector<std::string> rest = passesWith("passes.name.");

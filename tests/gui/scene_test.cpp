@@ -53,6 +53,18 @@ TEST_F(ScenePanel, ACommaIsANumbersPointAndWhatIsTypedIsNeverInfinite) {
     EXPECT_EQ(bench->value("parameters.search"), "0,05");
 }
 
+TEST_F(ScenePanel, ACommaThatIsPastedIsANumbersPointToo) {
+    start();
+    open("Scene");
+    bench->typeInto("parameters.search", "0,75", Entry::click, "ctrl+a");
+    bench->key("ctrl+c");
+    bench->typeInto("scene.camera", "", Entry::controlClick, "ctrl+v", {0.05, 0.5});
+    bench->key("Return");
+    EXPECT_NEAR(position().x, 0.75, 1e-6);
+    bench->typeInto("parameters.search", "", Entry::click, "ctrl+v");
+    EXPECT_EQ(bench->value("parameters.search"), "0,75");
+}
+
 TEST_F(ScenePanel, ADragOrbitsAboutTheTargetAndRComesBack) {
     start();
     const Image before = seenPicture();

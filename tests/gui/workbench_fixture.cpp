@@ -44,6 +44,13 @@ Json WorkbenchTest::savedStateWith(const Json& document) {
             {"knows_device", true}};
 }
 
+Json WorkbenchTest::savedStateShowing(const std::string& resource, int layer) {
+    Json kept = savedStateWith(smallDocument());
+    kept["view"]["resource"] = resource;
+    kept["view"]["layer"] = layer;
+    return kept;
+}
+
 void WorkbenchTest::writeSavedState(const Json& kept) const {
     const fs::path file = folder / "config/kaustik/workbench.json";
     fs::create_directories(file.parent_path());

@@ -31,6 +31,8 @@ class WorkbenchTest : public testing::Test {
     // What the workbench keeps, with that document: without handles of lights on the picture, and
     // recordings go to the folder "out", reports without a reference.
     [[nodiscard]] static Json savedStateWith(const Json& document);
+    // The same with the small document, and a texture in the picture's place.
+    [[nodiscard]] static Json savedStateShowing(const std::string& resource, int layer = 0);
     void writeSavedState(const Json& kept) const;
     [[nodiscard]] Json readSavedState() const;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "framework/gui/panels/parameter_control.h"
 #include "framework/gui/widgets.h"
 #include "framework/pipeline/effect.h"
 

@@ -34,6 +34,23 @@ void drawSwitch(Bench& bench, const graph::PassRecord& pass) {
                      : "When it is off: " + pass.bypass + ".");
 }
 
+// Over all the columns that have no numbers here, on as many lines as it takes.
+void drawReason(Bench& bench, const graph::PassRecord& pass) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - corner.x;
+    const char* text = pass.reason.c_str();
+    const float height = ImGui::CalcTextSize(text, nullptr, false, width).y;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 clipLow = draw.GetClipRectMin();  // of the column: below the header
+    const ImVec2 clipHigh = draw.GetClipRectMax();
+    draw.PushClipRect({corner.x, clipLow.y}, {corner.x + width, clipHigh.y});
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), corner, ImGui::GetColorU32(kGrey), text,
+                 nullptr, width);
+    draw.PopClipRect();
+    ImGui::Dummy({0.0f, height});
+    bench.map.area("passes.why." + pass.name, corner.x, corner.y, width, height, pass.reason);
+}
+
 void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRecord& pass,
                  double frameMs) {
     ImGui::TableNextRow();
@@ -54,19 +71,8 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
     tooltip(fmt::format("{}\n{}\nA click shows what it reads and writes, and its parameters.",
                         pass.name, pass.reason));
     if (times == nullptr) {
-        // The reason runs over all the columns that have no numbers here.
         ImGui::TableNextColumn();
-        const ImVec2 corner = ImGui::GetCursorScreenPos();
-        ImDrawList& draw = *ImGui::GetWindowDrawList();
-        const ImVec2 clipLow = draw.GetClipRectMin();  // of the column: below the header
-        const ImVec2 clipHigh = draw.GetClipRectMax();
-        draw.PushClipRect({corner.x, clipLow.y},
-                          {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), clipHigh.y});
-        draw.AddText(corner, ImGui::GetColorU32(kGrey), pass.reason.c_str());
-        draw.PopClipRect();
-        bench.map.area("passes.why." + pass.name, corner.x, corner.y,
-                       ImGui::CalcTextSize(pass.reason.c_str()).x, ImGui::GetTextLineHeight(),
-                       pass.reason);
+        drawReason(bench, pass);
         return;
     }
     const double median = settledMedianOf(times->gpuMilliseconds);

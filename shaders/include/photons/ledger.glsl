@@ -2,9 +2,15 @@
 // The energy ledger: sums of watts in 64-bit fixed point by integer atomics, so that they neither
 // drift nor depend on the order in which photons come. A compute shader whose threads add to few
 // accounts includes ledger_of_group.glsl in its place.
+//   NO_LEDGER  of frames that are timed without it: nothing is added up
 #include "include/photons/ledger_unit.glsl"
 #include "framework/transport/primitives.h"
 
+#ifdef NO_LEDGER
+void ledgerAddUnits(uint account, uint lowUnits, uint highUnits) {}
+void ledgerAddEvent(uint account) {}
+void ledgerCountTraced(uint count) {}
+#else
 layout(std430) buffer LedgerEntries {
     LedgerEntry ledger[];
 };
@@ -31,6 +37,10 @@ void ledgerAddUnits(uint account, uint lowUnits, uint highUnits) {
 }
 void ledgerAddEvent(uint account) { atomicAdd(ledger[account].events, 1u); }
 #endif
+
+// Photons that are sent on.
+void ledgerCountTraced(uint count) { atomicAdd(ledger[kAccountEmitted].traced, count); }
+#endif  // NO_LEDGER
 
 // Adds the flux of all channels to an account, as one event. What is not a number counts as an
 // event of its own account and adds nothing; nothing is no event but there.

@@ -49,7 +49,7 @@ uint nextSlot(bool continues) {
 // To be called in one pass of those that send on the same list: notes how long it is.
 void countTraced() {
     if (workgroupNumber() == 0u && gl_LocalInvocationIndex == 0u)
-        atomicAdd(ledger[kAccountEmitted].traced, nextPhotons.count);
+        ledgerCountTraced(nextPhotons.count);
 }
 
 // Of a photon that is sent on by the thread's.

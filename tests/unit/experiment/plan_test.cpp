@@ -136,6 +136,13 @@ TEST_F(Settings, ArePassedOnOnlyWhereTheExperimentSetsThem) {
                                                           "--reference=none", "--precise"}));
 }
 
+TEST_F(Settings, TakeTheLedgerOfTimedFramesAsAnAxis) {
+    const Plan both = plan("name = 'x'\n[permute]\nledger = [true, false]\n");
+    EXPECT_EQ(both.runs[0].hash, plan("name = 'x'\n").runs[0].hash);
+    EXPECT_EQ(both.runs[0].runArguments.back(), "--reference=none");
+    EXPECT_EQ(both.runs[1].runArguments.back(), "--no-ledger");
+}
+
 TEST_F(Settings, TakeAPapersRowAsAnAxis) {
     const Plan both = plan("name = 'x'\n[permute]\nas_published = [false, true]\n");
     ASSERT_EQ(both.runs.size(), 2u);
@@ -183,9 +190,9 @@ TEST_F(Hash, ChangesWithEverySetting) {
     const std::string hash = plan("name = 'x'\n").runs[0].hash;
     for (const char* setting :
          {"technique = 'cube'", "size = '64x49'", "frames = 9", "warmup = 2", "seed = 2",
-          "precise = true", "time = 0.25", "reference = 'auto'", "reference_photons = 1001",
-          "disable = ['sprites']", "trace = 'march'", "epsilon = 0.02", "width = 1",
-          "photons = '256x255'"}) {
+          "precise = true", "ledger = false", "time = 0.25", "reference = 'auto'",
+          "reference_photons = 1001", "disable = ['sprites']", "trace = 'march'", "epsilon = 0.02",
+          "width = 1", "photons = '256x255'"}) {
         EXPECT_NE(plan(std::string("name = 'x'\n[base]\n") + setting + "\n").runs[0].hash, hash)
             << setting;
     }

@@ -121,7 +121,7 @@ TEST_F(ShownImageTest, AnErrorHasASignAndIsNoColourTwice) {
     EXPECT_EQ(both.compared->valuesAt({1, 0}), "(1, 0)  error -45.27 W/m²");
     EXPECT_EQ(both.compared->valuesAt({0, 0}), "(0, 0)  left out");
     EXPECT_TRUE(both.compared->caption().starts_with(
-        "error: caustic irradiance minus that of the reference, mean of the channels, W/m²"))
+        "error: caustic irradiance less the reference's, mean of the channels, W/m²"))
         << both.compared->caption();
     EXPECT_TRUE(both.compared->mapping.isFalseColor);
     EXPECT_EQ(both.compared->colorBar()->scale, Scale::symmetric);

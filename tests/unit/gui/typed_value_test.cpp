@@ -11,11 +11,13 @@ struct Some {
     float epsilon = 0.01f;
     int layers = 8;
     params::Extent photons{32, 32};
+    int samples = 1;
     template <class R>
     void reflect(R& r) {
         r.field(epsilon, "epsilon", "A distance", "m", params::range(1e-6f, 10.0f));
         r.field(layers, "layers", "A number", "", params::range(1, 64));
         r.field(photons, "photons", "A grid", "", params::range(1, 16384));
+        r.field(samples, "samples", "Squares", "", params::range(1, 16)).only({1, 4, 9, 16});
     }
 };
 
@@ -54,6 +56,15 @@ TEST_F(TypedValues, ThatAreNoNumbersLeaveAllAsItWasAndSaySo) {
     // What was there is as it was.
     EXPECT_EQ(params.get<Some>("some").epsilon, 0.01f);
     EXPECT_EQ(params.get<Some>("some").layers, 8);
+}
+
+TEST_F(TypedValues, BetweenThoseThatAreTakenBecomeTheNearestAndSaySo) {
+    EXPECT_EQ(typedValue(named("samples"), "9").problem, "");
+    const TypedValue between = typedValue(named("samples"), "8");
+    EXPECT_EQ(between.text, "9");
+    EXPECT_EQ(between.problem, "some.samples takes 1 | 4 | 9 | 16: of 8 it has taken 9.");
+    EXPECT_EQ(typedValue(named("samples"), "1e9").text, "16");
+    EXPECT_EQ(typedValue(named("samples"), "8.5").text, "");
 }
 
 TEST_F(TypedValues, BeyondTheRangeBecomeTheNearestWithinAndSaySo) {

@@ -118,6 +118,22 @@ TEST(ParamSet, RefusesAnAmbiguousNameAndSaysWhatItCouldBe) {
     EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 1024);
 }
 
+TEST(Field, TakesTheValuesOfItsListAlone) {
+    int samples = 1;
+    FieldList list;
+    const Field field = list.field(samples, "samples", "Samples", "", range(1, 9)).only({1, 4, 9});
+    EXPECT_EQ(field.rangeText(), "1 | 4 | 9");
+    field.set("4", "eye.samples", "--set");
+    EXPECT_EQ(samples, 4);
+    try {
+        field.set("5", "eye.samples", "--set");
+        FAIL();
+    } catch (const ConfigError& error) {
+        EXPECT_STREQ(error.what(), "--set: eye.samples cannot be '5'; it takes 1, 4, 9.");
+    }
+    EXPECT_EQ(samples, 4);
+}
+
 TEST(ParamSet, NamesTheNearestParameterWhenOneIsUnknown) {
     ParamSet set = makeSet();
     EXPECT_NE(messageOf(set, "trace.epsilom=1").find("did you mean 'trace.epsilon'"),
