@@ -3,7 +3,7 @@
 # Counts what a frame of each technique reads and writes at 1024² photons, 1920×1080 pixels and 8 layers, on whatever device there is: the counts are the
 # same on all, but for what shaders race for. Writes results/costs/passes.csv, of which results/costs.md is made.
 #   costs.sh [--out results/runs/costs] [--scenes "pool ring"] [--techniques "exact_rays planar"]
-# What is finished in the folder is not done again.
+# What is finished in the folder is not done again; rows of frames that are not in it stay as they are.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

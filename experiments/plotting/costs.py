@@ -6,7 +6,7 @@
     costs.py frames FILE
     costs.py passes FILE
 
-slim: of the report.json of runs with --device-model (or their folders) what is committed, a row a pass. frames: a row a technique and scene: bytes that
+slim: of the report.json of runs with --device-model (or their folders) what is committed, a row a pass; rows of other frames stay in the file. frames: a row a technique and scene: bytes that
 the frame reads and writes, each once in a pass, the time that this takes at 500, 1000 and 4800 GB/s, and the three passes that have most of it, ms at 1000 GB/s.
 passes: every pass of `pool` by default and with each technique that has it, MB. Both print Markdown.
 """
@@ -32,12 +32,16 @@ def slim(file: pathlib.Path) -> list[dict]:
 
 
 def write(files: list[pathlib.Path], target: pathlib.Path) -> None:
+    frames = read(target) if target.exists() else {}
+    for file in files:
+        rows = slim(file)
+        frames[rows[0]["scene"], rows[0]["technique"]] = rows
     target.parent.mkdir(parents=True, exist_ok=True)
     with target.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, COLUMNS + RUN, lineterminator="\n")
         writer.writeheader()
-        for file in sorted(files):
-            writer.writerows(slim(file))
+        for frame in sorted(frames):
+            writer.writerows(frames[frame])
 
 
 def read(file: pathlib.Path) -> dict[tuple[str, str], list[dict]]:

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/number_fields.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace kaustik::gui {
+namespace {
+
+// The field that is being typed into; one at a time.
+struct Typing {
+    ImGuiID field = 0;
+    std::string text;
+};
+thread_local Typing typing;
+
+template <class T>
+std::string takenSentence(const std::string& label, T minimum, T maximum, const std::string& typed,
+                          T taken) {
+    return fmt::format("{} takes {} to {}: of {} it has taken {}.", label, minimum, maximum, typed,
+                       taken);
+}
+
+template <class T>
+void takeBack(Bench& bench, const std::string& label, T& value, T minimum, T maximum) {
+    // What is no number leaves nothing to be next to.
+    const T taken = value >= minimum ? std::min(value, maximum) : minimum;
+    if (taken == value) return;
+    bench.notify(takenSentence(label, minimum, maximum, fmt::format("{}", value), taken), true);
+    value = taken;
+}
+
+}  // namespace
+
+TypedCount typedCount(const std::string& label, const std::string& text, int minimum, int maximum) {
+    const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
+    const std::string typed = text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+    double number = 0.0;
+    const auto [end, problem] = std::from_chars(typed.data(), typed.data() + typed.size(), number);
+    const bool isWhole = end == typed.data() + typed.size() && problem == std::errc() &&
+                         std::floor(number) == number;
+    const bool isTooLong = problem == std::errc::result_out_of_range;
+    if (!isWhole && !isTooLong) {
+        return {std::nullopt, fmt::format("{} takes a whole number from {} to {}, not '{}'.", label,
+                                          minimum, maximum, typed)};
+    }
+    const bool isAbove = isTooLong ? !typed.starts_with('-') : number > maximum;
+    const bool isBelow = isTooLong ? typed.starts_with('-') : number < minimum;
+    if (!isAbove && !isBelow) return {static_cast<int>(number), ""};
+    const int taken = isAbove ? maximum : minimum;
+    return {taken, takenSentence(label, minimum, maximum, typed, taken)};
+}
+
+bool inputCount(Bench& bench, const char* label, int& value, int minimum, int maximum,
+                const std::string& name) {
+    const ImGuiID field = ImGui::GetID(label);
+    std::string text = typing.field == field ? typing.text : fmt::format("{}", value);
+    ImGui::InputText(label, &text, ImGuiInputTextFlags_AutoSelectAll);
+    bench.map.control(name, fmt::format("{}", value));
+    if (ImGui::IsItemActive()) {
+        typing = {field, text};
+        return false;
+    }
+    if (typing.field != field) return false;
+    typing.field = 0;
+    if (text == fmt::format("{}", value)) return false;
+    const TypedCount typed = typedCount(label, text, minimum, maximum);
+    if (!typed.problem.empty()) bench.notify(typed.problem, true);
+    return typed.value && std::exchange(value, *typed.value) != *typed.value;
+}
+
+void keepWithin(Bench& bench, const std::string& label, float& value, float minimum,
+                float maximum) {
+    takeBack(bench, label, value, minimum, maximum);
+}
+
+void keepWithin(Bench& bench, const std::string& label, int& value, int minimum, int maximum) {
+    takeBack(bench, label, value, minimum, maximum);
+}
+
+}  // namespace kaustik::gui
