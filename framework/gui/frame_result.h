@@ -38,6 +38,13 @@ struct ListedBuffer {
     std::size_t bytes = 0;
 };
 
+// What was rendered when a picture was made, whatever is set up since.
+struct PictureOrigin {
+    std::string scene;  // its name
+    Variant variant;
+    params::Extent size;
+};
+
 // One layer of a texture, read back: sums put together, the faces of a cube unfolded.
 struct ViewedTexture {
     std::string name;           // of the resource; "" where it is the picture
@@ -66,8 +73,8 @@ struct ViewedTexture {
     // the picture is made of.
     std::string checked;
     std::optional<measure::NotFinite> notFinite;
-    Histogram histogram;                       // of all channels of colour, or of a vector
-    std::vector<Histogram> channelHistograms;  // of channels that are looked at by themselves
+    std::shared_ptr<Histograms> histograms = std::make_shared<Histograms>();  // of the values
+    std::shared_ptr<const PictureOrigin> origin;                              // never null
 };
 
 // What was rendered of one of the two variants.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace kaustik::gui {
@@ -55,6 +56,44 @@ Histogram histogramOf(const Image& image) {
 
 Histogram histogramOf(const Image& image, int channel) {
     return histogramOf(finiteValues(image, static_cast<std::size_t>(channel), 1));
+}
+
+Histogram histogramOf(const Image& image, Together together) {
+    const auto channels = static_cast<std::size_t>(std::max(image.channels, 1));
+    std::vector<float> values;
+    values.reserve(image.values.size() / channels);
+    for (std::size_t i = 0; i + channels <= image.values.size(); i += channels) {
+        // As shaders/gui/tone.frag has them.
+        const float red = image.values[i];
+        const float green = channels > 1 ? image.values[i + 1] : red;
+        const float blue = channels > 2 ? image.values[i + 2] : channels > 1 ? 0.0f : red;
+        const float value =
+            together == Together::length
+                ? std::sqrt(red * red + green * green + blue * blue)
+                : 0.2126390059f * red + 0.7151686788f * green + 0.0721923154f * blue;
+        if (std::isfinite(value)) values.push_back(value);
+    }
+    return histogramOf(std::move(values));
+}
+
+const Histogram& Histograms::all(const Image& image) {
+    return kept(-1, [&] { return histogramOf(image); });
+}
+
+const Histogram& Histograms::channel(const Image& image, int channel) {
+    return kept(channel, [&] { return histogramOf(image, channel); });
+}
+
+const Histogram& Histograms::together(const Image& image, Together together) {
+    return kept(together == Together::luminance ? -2 : -3,
+                [&] { return histogramOf(image, together); });
+}
+
+const Histogram& Histograms::kept(int key, const std::function<Histogram()>& make) {
+    const std::lock_guard lock(mutex_);
+    auto found = made_.find(key);
+    if (found == made_.end()) found = made_.emplace(key, make()).first;
+    return found->second;
 }
 
 }  // namespace kaustik::gui

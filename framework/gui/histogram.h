@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
 
 #include "framework/image/image.h"
 
@@ -25,5 +28,22 @@ struct Histogram {
 [[nodiscard]] Histogram histogramOf(const Image& image);
 // Of one channel, from 0.
 [[nodiscard]] Histogram histogramOf(const Image& image, int channel);
+// Of what the first three channels are together: their length as a vector's, or their luminance.
+enum class Together { luminance, length };
+[[nodiscard]] Histogram histogramOf(const Image& image, Together together);
+
+// Those of one image, each made when it is first asked for, on whatever thread.
+class Histograms {
+  public:
+    [[nodiscard]] const Histogram& all(const Image& image);
+    [[nodiscard]] const Histogram& channel(const Image& image, int channel);
+    [[nodiscard]] const Histogram& together(const Image& image, Together together);
+
+  private:
+    const Histogram& kept(int key, const std::function<Histogram()>& make);
+
+    std::mutex mutex_;
+    std::map<int, Histogram> made_;  // by channel; below 0 the others
+};
 
 }  // namespace kaustik::gui

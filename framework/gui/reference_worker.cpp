@@ -229,6 +229,8 @@ void ReferenceWorker::useLoaded(const Loaded& loaded) {
     working_.relativeError = loaded.whole ? loaded.whole->relativeError : 0.0;
     working_.irradiance =
         loaded.whole ? std::make_shared<const Image>(loaded.whole->irradiance) : nullptr;
+    working_.histograms = std::make_shared<Histograms>();
+    if (working_.irradiance) static_cast<void>(working_.histograms->all(*working_.irradiance));
 }
 
 void ReferenceWorker::look(Loaded& loaded, const ReferenceAim& aim) {

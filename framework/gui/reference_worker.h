@@ -50,6 +50,7 @@ struct ReferenceState {
     std::uint64_t photons = 0;        // 0: there is no reference
     double relativeError = 0.0;
     std::shared_ptr<const Image> irradiance;  // W/m², top row first
+    std::shared_ptr<Histograms> histograms = std::make_shared<Histograms>();  // of that
     struct Judgement {
         std::uint64_t order = 0;  // that the frame answered; 0: none yet
         nlohmann::json whole;     // as `error` of report.json

@@ -10,13 +10,6 @@
 namespace kaustik::gui {
 namespace {
 
-const Histogram& histogramFor(const ViewedTexture& viewed, const Look& look) {
-    const int channel = singleChannel(viewed.content, look.channel);
-    const auto place = static_cast<std::size_t>(channel);
-    return channel >= 0 && place < viewed.channelHistograms.size() ? viewed.channelHistograms[place]
-                                                                   : viewed.histogram;
-}
-
 ShownImage imageOf(const ViewedTexture& viewed, const ViewState& view) {
     ShownImage image;
     image.resource = viewed.name;
@@ -28,7 +21,8 @@ ShownImage imageOf(const ViewedTexture& viewed, const ViewState& view) {
     image.version = viewed.version;
     image.regions = viewed.regions;
     image.look = view.lookOf(viewed.name);
-    image.histogram = histogramFor(viewed, image.look);
+    image.origin = viewed.origin;
+    image.histogram = histogramFor(*viewed.histograms, viewed.values, image.content, image.look);
     image.mapping = mappingOf(image.look, image.content, image.histogram, viewed.isEncoded);
     return image;
 }
@@ -53,8 +47,8 @@ ShownImage ofReference(const ShownRequest& requested, const ReferenceState& refe
     image.values = reference.irradiance.get();
     image.owner = reference.irradiance;
     image.version = 2 * reference.version;
-    image.histogram = histogramOf(*image.values);
     image.look = requested.view.lookOf(image.resource);
+    image.histogram = histogramFor(*reference.histograms, *image.values, image.content, image.look);
     image.mapping = mappingOf(image.look, image.content, image.histogram, false);
     // Both sides of a split have one scale.
     if (main != nullptr && main->resource == image.resource) image.mapping = main->mapping;
@@ -115,6 +109,8 @@ ShownImage ofDifference(const ShownRequest& requested, const ShownImage& main,
     image.place = main.place;
     image.note = fmt::format("RMSE {:.4g}", difference.rmse);
     if (difference.flip) image.note += fmt::format(", FLIP {:.4g}", *difference.flip);
+    image.origin = main.origin;
+    image.originOfSubtrahend = other.origin;
     image.values = difference.signedMean.get();
     image.owner = difference.signedMean;
     // No two of them have one place in memory while either is shown.

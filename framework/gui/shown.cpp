@@ -128,7 +128,19 @@ bool isRendered(const ShownRequest& requested, const FrameResult& result) {
 
 Shown shownOf(const ShownRequest& requested, const FrameResult& result,
               const ReferenceState& reference, const std::optional<Document>& whole) {
-    if (const KeptVariant* kept = requested.flipped()) {
+    const KeptVariant* kept = requested.flipped();
+    if (kept != nullptr && kept->texture(requested.view.resource) == nullptr) {
+        Shown shown;
+        shown.kind = Shown::Kind::stale;
+        shown.remedy = Shown::Remedy::picture;
+        shown.sentence =
+            fmt::format("Variant {} was kept without {}. Key {} leads back to the newest frame.",
+                        requested.view.flipped + 1,
+                        requested.view.resource.empty() ? "its picture" : requested.view.resource,
+                        requested.view.flipped + 1);
+        return shown;
+    }
+    if (kept != nullptr) {
         Shown shown;
         shown.sentence = fmt::format(
             "Kept variant {} is shown as it was rendered: {}. Key {} leads back to the newest "

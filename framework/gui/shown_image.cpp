@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/gui/kept_variant.h"
+
 namespace kaustik::gui {
 namespace {
 
@@ -18,6 +20,12 @@ float encoded(double linear) {
 
 std::string number(double value) {
     return fmt::format("{:.3g}", value);
+}
+
+// A whole number as it is, as long as a float tells it from its neighbours.
+std::string digitsOf(float value, int digits) {
+    const bool isWhole = std::abs(value) < 16777216.0f && std::round(value) == value;
+    return isWhole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
 }
 
 std::string tickText(double value, Scale scale) {
@@ -111,6 +119,16 @@ int singleChannel(const TextureContent& content, Channel channel) {
     return content.kind == ValueKind::single ? 0 : -1;
 }
 
+const Histogram& histogramFor(Histograms& histograms, const Image& values,
+                              const TextureContent& content, const Look& look) {
+    if (const int channel = singleChannel(content, look.channel); channel >= 0)
+        return histograms.channel(values, std::min(channel, values.channels - 1));
+    // False colours are of one number a pixel.
+    if (!look.isFalseColor && look.channel != Channel::luminance) return histograms.all(values);
+    return histograms.together(
+        values, content.kind == ValueKind::vector ? Together::length : Together::luminance);
+}
+
 std::string channelLabel(const TextureContent& content, Channel channel) {
     const int single = singleChannel(content, channel);
     if (single >= 0) return labelOf(content.channels[static_cast<std::size_t>(single)]);
@@ -171,11 +189,8 @@ std::string ShownImage::caption() const {
     } else {
         text += name();
         if (!layerName.empty()) text += " · " + layerName;
-        if (!mapping.isEncoded) {
-            text += " · " + channelLabel(content, look.channel);
-        } else if (const std::optional<ColorBar> bar = colorBar()) {
-            text += " · " + bar->label;
-        }
+        // Of the picture as it is, the name says all.
+        if (const std::optional<ColorBar> bar = colorBar()) text += " · " + bar->label;
     }
     text += " · " + place;
     if (!note.empty()) text += " · " + note;
@@ -212,7 +227,7 @@ std::string ShownImage::valuesAt(glm::ivec2 pixel) const {
         const ChannelContent channel =
             index < content.channels.size() ? content.channels[index] : ChannelContent{};
         if (mapping.leavesOut && std::isnan(value)) return text + "  left out";
-        text += fmt::format("  {} {:.5g}", channel.name, value);
+        text += fmt::format("  {} {}", channel.name, digitsOf(value, 5));
         // Once for all that have it.
         const bool isLast = index + 1 >= content.channels.size() ||
                             content.channels[index + 1].unit != channel.unit;
@@ -225,7 +240,7 @@ std::string ShownImage::numbersAt(glm::ivec2 pixel) const {
     if (!contains(pixel)) return "";
     std::string text;
     for (int c = 0; c < values->channels; ++c)
-        text += fmt::format("{}{:.4g}", c == 0 ? "" : "\n", values->at(pixel.x, pixel.y, c));
+        text += (c == 0 ? "" : "\n") + digitsOf(values->at(pixel.x, pixel.y, c), 4);
     return text;
 }
 
@@ -269,15 +284,29 @@ std::vector<std::pair<Channel, std::string>> ShownImage::channels() const {
     return all;
 }
 
-std::vector<std::pair<std::string, std::string>> ShownImage::metadata(
-    const Document& document) const {
+std::string ShownImage::identity() const {
+    const auto text = [](const PictureOrigin& of) {
+        return fmt::format("{}, {}, {}×{} px", of.scene, settingsText(of.variant), of.size.width,
+                           of.size.height);
+    };
+    if (!origin) return "";
+    return text(*origin) + (originOfSubtrahend ? "; less " + text(*originOfSubtrahend) : "");
+}
+
+std::vector<std::pair<std::string, std::string>> ShownImage::metadata() const {
     std::vector<std::pair<std::string, std::string>> all = {
-        {"scene", document.scene},
-        {"technique",
-         source == "B" && document.other ? document.other->technique : document.variant.technique},
-        {"image", caption()},
-        {"quantity", content.quantity},
-        {"space", place}};
+        {"image", caption()}, {"quantity", content.quantity}, {"space", place}};
+    const auto addOrigin = [&](const PictureOrigin& of, const std::string& prefix) {
+        all.emplace_back(prefix + "scene", of.scene);
+        all.emplace_back(prefix + "technique", of.variant.technique);
+        all.emplace_back(prefix + "size", fmt::format("{}x{}", of.size.width, of.size.height));
+        std::string settings;
+        for (const auto& [name, value] : of.variant.assignments)
+            settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", name, value);
+        if (!settings.empty()) all.emplace_back(prefix + "settings", settings);
+    };
+    if (origin) addOrigin(*origin, "");
+    if (originOfSubtrahend) addOrigin(*originOfSubtrahend, "subtrahend ");
     std::string units;
     for (const ChannelContent& channel : content.channels)
         units += (units.empty() ? "" : "; ") + labelOf(channel);
@@ -289,11 +318,6 @@ std::vector<std::pair<std::string, std::string>> ShownImage::metadata(
                                                 kScales[static_cast<std::size_t>(bar->scale)],
                                                 number(bar->low), number(bar->high), bar->label));
     }
-    const Variant& variant = source == "B" && document.other ? *document.other : document.variant;
-    std::string settings;
-    for (const auto& [name, value] : variant.assignments)
-        settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", name, value);
-    if (!settings.empty()) all.emplace_back("settings", settings);
     return all;
 }
 

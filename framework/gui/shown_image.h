@@ -55,6 +55,9 @@ struct ShownImage {
     std::shared_ptr<const void> owner;  // of the values, where the image has to keep them
     const Image* values = nullptr;      // never null
     std::uint64_t version = 0;          // of the values: no others have it
+    // What it was rendered by, and, of a difference, what was taken off; null of a reference.
+    std::shared_ptr<const PictureOrigin> origin;
+    std::shared_ptr<const PictureOrigin> originOfSubtrahend;
     std::vector<ViewedTexture::Region> regions;
     Histogram histogram;  // of what is looked at
     Look look;
@@ -73,8 +76,10 @@ struct ShownImage {
     // Channels by name that a look may choose.
     [[nodiscard]] std::vector<std::pair<Channel, std::string>> channels() const;
     // What a file of it says of itself.
-    [[nodiscard]] std::vector<std::pair<std::string, std::string>> metadata(
-        const Document& document) const;
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> metadata() const;
+    // What it was rendered by: "pool, exact_rays, emit.photons=64x64, 400×300 px"; of a difference
+    // both.
+    [[nodiscard]] std::string identity() const;
     [[nodiscard]] bool contains(glm::ivec2 pixel) const;
 };
 
@@ -86,6 +91,10 @@ struct ShownImage {
 // The range and the exposure that a look has over these values.
 [[nodiscard]] ToneMapping mappingOf(const Look& look, const TextureContent& content,
                                     const Histogram& histogram, bool isEncoded);
+
+// Of what a look shows of it: all channels of colour, one of them, or what they are together.
+[[nodiscard]] const Histogram& histogramFor(Histograms& histograms, const Image& values,
+                                            const TextureContent& content, const Look& look);
 
 // The channel that is looked at by itself; -1: all of a colour or a vector.
 [[nodiscard]] int singleChannel(const TextureContent& content, Channel channel);

@@ -135,17 +135,6 @@ std::string placeOf(const Renderer& renderer, const std::string& name, const Flu
     return describe(content.space);
 }
 
-void measureValues(ViewedTexture& viewed) {
-    viewed.notFinite = measure::findNotFinite(viewed.values);
-    if (viewed.content.kind != ValueKind::single) {
-        viewed.histogram = histogramOf(viewed.values);
-        return;
-    }
-    for (int c = 0; c < viewed.values.channels; ++c)
-        viewed.channelHistograms.push_back(histogramOf(viewed.values, c));
-    viewed.histogram = viewed.channelHistograms.front();
-}
-
 }  // namespace
 
 ViewedTexture reducedTo(ViewedTexture viewed, int side) {
@@ -235,7 +224,6 @@ ViewedTexture readPicture(const Renderer& renderer) {
     viewed.checked = renderer.graph().nameOf(picture.radiance);
     viewed.notFinite =
         measure::findNotFinite(run::readTexture(renderer.texture(picture.radiance), 0, 3));
-    viewed.histogram = histogramOf(viewed.values);
     return viewed;
 }
 
@@ -302,7 +290,7 @@ ViewedTexture readViewed(const Renderer& renderer, const std::string& name, int 
         viewed.regions = regionsOfPyramid(size.width, size.height);
     }
     viewed.content.channels.resize(static_cast<std::size_t>(viewed.values.channels));
-    measureValues(viewed);
+    viewed.notFinite = measure::findNotFinite(viewed.values);
     return viewed;
 }
 

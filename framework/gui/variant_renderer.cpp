@@ -5,6 +5,7 @@
 
 #include "framework/core/error.h"
 #include "framework/gui/pass_graph.h"
+#include "framework/gui/shown_image.h"
 #include "framework/gui/texture_reader.h"
 #include "framework/run/output.h"
 #ifdef KAUSTIK_HAS_EMBREE
@@ -61,6 +62,7 @@ void VariantRenderer::select(const Variant& variant, const params::Extent& size)
     }
     variant_ = variant;
     size_ = size;
+    origin_ = std::make_shared<const PictureOrigin>(PictureOrigin{scene_.name, variant, size});
 }
 
 bool VariantRenderer::guarded(const std::function<bool()>& work) {
@@ -107,6 +109,9 @@ bool VariantRenderer::render(const Variant& variant, const params::Extent& size,
 ViewedTexture VariantRenderer::view(const Viewing& viewing) {
     ViewedTexture viewed = readViewed(session_->renderer(), viewing.resource, viewing.layer);
     viewed.version = ++versions_;
+    // That of an untouched look: the window's thread has better to do.
+    static_cast<void>(histogramFor(*viewed.histograms, viewed.values, viewed.content, Look()));
+    viewed.origin = origin_;
     return viewed;
 }
 

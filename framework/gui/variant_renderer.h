@@ -83,6 +83,7 @@ class VariantRenderer {
     std::uint64_t& versions_;
     Variant variant_;
     params::Extent size_;
+    std::shared_ptr<const PictureOrigin> origin_;  // of these
     std::optional<run::Session> session_;  // of these two, once something was to be rendered
     VariantResult result_;
     bool isMeasured_ = false;         // by the frame that was rendered last

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/showing.h"
 #include "framework/gui/shown.h"
 #include "framework/gui/widgets.h"
 #include "framework/gui/workbench.h"
@@ -169,13 +170,13 @@ void Workbench::drawStatusBar() {
     const float end = corner.x + width;
     const std::string& value = bench_.valueUnderMouse;
     // Of what the picture is, for who has only that, where nothing newer needs the room.
-    const Document& shown = bench_.result->document;
     std::string identity;
-    if (bench_.message.empty() && bench_.result->scene) {
-        identity = fmt::format("{}, {}{}, {}×{} px", bench_.result->scene->name,
-                               settingsText(shown.variant),
-                               shown.other ? " and " + settingsText(*shown.other) : "",
-                               shown.size.width, shown.size.height);
+    if (bench_.message.empty()) {
+        const Showing showing = showingOf(bench_.requested(), *bench_.result, *bench_.reference);
+        if (showing.main) identity = showing.main->identity();
+        if (showing.compared && showing.compared->origin &&
+            showing.compared->origin != showing.main->origin)
+            identity += " and " + showing.compared->identity();
     }
     if (!value.empty()) {
         const float needed = ImGui::CalcTextSize(value.c_str()).x;
@@ -188,7 +189,8 @@ void Workbench::drawStatusBar() {
     }
     if (!identity.empty()) {
         const float needed = ImGui::CalcTextSize(identity.c_str()).x;
-        const float room = std::min(needed, 0.6f * (end - x));
+        const float rest = ImGui::CalcTextSize(words.c_str()).x + gap;
+        const float room = std::min(needed, std::max(end - x - rest, 0.6f * (end - x)));
         bench_.map.area("status.identity", x, corner.y, room, line, identity);
         cutLine(identity, {x, corner.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled), room);
         x += room + gap;

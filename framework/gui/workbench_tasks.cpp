@@ -96,8 +96,8 @@ void Workbench::saveShown() {
     bench_.wantsShownSaved = false;
     const Showing showing = showingOf(bench_.requested(), *bench_.result, *bench_.reference);
     if (!showing.main) {
-        bench_.notify("There is no image to save.", true, [](const Bench& bench) {
-            return bench.result->variants[bench.requested().seen()].viewed.has_value();
+        bench_.notify("There is no image to save. " + showing.words, true, [](const Bench& bench) {
+            return showingOf(bench.requested(), *bench.result, *bench.reference).main.has_value();
         });
         return;
     }
@@ -110,12 +110,12 @@ void Workbench::saveShown() {
     std::vector<Saved> images;
     const auto add = [&](const ShownImage& image, std::size_t slot, const std::string& end) {
         std::string name =
-            fmt::format("{}-{}{}", recordingName(bench_.document.scene), image.name(), end);
+            fmt::format("{}-{}{}{}", recordingName(bench_.document.scene), image.name(),
+                        image.source.empty() || !end.empty() ? "" : "-" + image.source, end);
         Image seen;
         bench_.canvas.show(slot, *image.values, image.version, image.mapping);
         seen = bench_.canvas.read(slot);
-        images.push_back(
-            {std::move(name), *image.values, std::move(seen), image.metadata(bench_.document)});
+        images.push_back({std::move(name), *image.values, std::move(seen), image.metadata()});
     };
     add(*showing.main, 0, "");
     if (showing.compared) add(*showing.compared, 1, "-" + showing.compared->source);

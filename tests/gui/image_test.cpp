@@ -257,7 +257,7 @@ TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
     EXPECT_LT(hue(darker), 0.02);
     EXPECT_GT(hue(coloured), 0.3);
     bench->click("image.range_automatic");
-    EXPECT_TRUE(bench->has("image.range"));
+    EXPECT_TRUE(bench->has("image.range.low"));
     // Another texture has a look of its own.
     choose("image.texture", "direct.irradiance");
     untilSettled();

@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cmath>
 
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/resource_words.h"
 #include "framework/gui/showing.h"
@@ -85,10 +86,27 @@ void drawChoiceOfTexture(Bench& bench) {
         const auto layer = static_cast<std::size_t>(bench.view.layer);
         if (layer < viewed.layerNames.size())
             name = fmt::format("%d: {}", viewed.layerNames[layer]);
-        ImGui::SliderInt("layer", &bench.view.layer, 0, viewed.layers - 1, name.c_str(),
-                         ImGuiSliderFlags_AlwaysClamp);
+        if (ImGui::SliderInt("layer", &bench.view.layer, 0, viewed.layers - 1, name.c_str()))
+            keepWithin(bench, "layer", bench.view.layer, 0, viewed.layers - 1);
         bench.map.control("image.layer", fmt::format("{}", bench.view.layer));
     }
+}
+
+constexpr float kLargestEnd = 1e30f;
+
+// Where a scale cannot have the ends that were typed.
+void drawRangeThatIsUsed(Bench& bench, const ShownImage& image, const Look& look) {
+    const ToneMapping used =
+        mappingOf(look, image.content, image.histogram, image.mapping.isEncoded);
+    if (used.low == look.low && used.high == look.high) return;
+    const char* why = look.low >= look.high ? "the lower end is not below the upper one"
+                      : look.scale == Scale::symmetric
+                          ? "as far to both sides of 0 as the upper end"
+                          : "a logarithm has no 0 and nothing below";
+    const std::string text =
+        fmt::format("The colours go from {:.4g} to {:.4g}: {}.", used.low, used.high, why);
+    ImGui::TextWrapped("%s", text.c_str());
+    bench.map.control("image.range.used", text);
 }
 
 void drawRange(Bench& bench, const ShownImage& image, Look& look) {
@@ -106,9 +124,18 @@ void drawRange(Bench& bench, const ShownImage& image, Look& look) {
         return;
     }
     const float span = std::max(std::abs(look.high - look.low), 1e-30f);
-    ImGui::DragFloatRange2("range", &look.low, &look.high, span * 0.005f, -1e30f, 1e30f, "%.4g",
-                           "%.4g", ImGuiSliderFlags_AlwaysClamp);
-    bench.map.control("image.range");
+    const float between = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = 0.5f * (ImGui::CalcItemWidth() - between);
+    ImGui::SetNextItemWidth(width);
+    ImGui::DragFloat("##low", &look.low, span * 0.005f, 0.0f, 0.0f, "%.4g");
+    bench.map.control("image.range.low", fmt::format("{}", look.low));
+    ImGui::SameLine(0.0f, between);
+    ImGui::SetNextItemWidth(width);
+    ImGui::DragFloat("range", &look.high, span * 0.005f, 0.0f, 0.0f, "%.4g");
+    bench.map.control("image.range.high", fmt::format("{}", look.high));
+    keepWithin(bench, "range", look.low, -kLargestEnd, kLargestEnd);
+    keepWithin(bench, "range", look.high, -kLargestEnd, kLargestEnd);
+    drawRangeThatIsUsed(bench, image, look);
 }
 
 // How the image on the screen becomes colours: each has a look of its own.
@@ -128,8 +155,8 @@ void drawLook(Bench& bench, const ShownImage& image) {
         drawRange(bench, image, look);
     } else if (!image.mapping.isEncoded) {
         float stops = image.mapping.exposureStops;
-        if (ImGui::SliderFloat("exposure (+ -)", &stops, -kMaxStops, kMaxStops, "%.1f stops",
-                               ImGuiSliderFlags_AlwaysClamp)) {
+        if (ImGui::SliderFloat("exposure (+ -)", &stops, -kMaxStops, kMaxStops, "%.1f stops")) {
+            keepWithin(bench, "exposure", stops, -kMaxStops, kMaxStops);
             look.exposureStops = stops;
             look.isExposureAutomatic = false;
         }
@@ -145,6 +172,42 @@ void drawLook(Bench& bench, const ShownImage& image) {
         ImGui::PopTextWrapPos();
     }
     if (!(look == image.look)) bench.view.looks[image.resource] = look;
+}
+
+// How many values lie where, by a logarithm, and, under the mouse, where and how many.
+void drawHistogram(Bench& bench, const ShownImage& image) {
+    const Histogram& histogram = image.histogram;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, static_cast<float>(bench.px(70.0)));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y},
+                       ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const std::uint32_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
+    const float width = size.x / static_cast<float>(Histogram::kBins);
+    for (std::size_t i = 0; i < Histogram::kBins; ++i) {
+        if (histogram.counts[i] == 0) continue;
+        const float share = std::log2(1.0f + static_cast<float>(histogram.counts[i])) /
+                            std::log2(1.0f + static_cast<float>(most));
+        const float x = corner.x + width * static_cast<float>(i);
+        draw.AddRectFilled({x, corner.y + size.y * (1.0f - share)}, {x + width, corner.y + size.y},
+                           ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+    }
+    ImGui::Dummy(size);
+    const float place = (ImGui::GetIO().MousePos.x - corner.x) / width;
+    const auto bin =
+        static_cast<std::size_t>(std::clamp(place, 0.0f, static_cast<float>(Histogram::kBins - 1)));
+    const float step = (histogram.end - histogram.low) / static_cast<float>(Histogram::kBins);
+    const bool isLast = bin + 1 == Histogram::kBins;
+    tooltip(fmt::format(
+        "{} values from {:.4g} to {:.4g}. Bars are as high as the logarithm of such numbers; the "
+        "last has all from {:.4g} on.",
+        histogram.counts[bin], histogram.low + step * static_cast<float>(bin),
+        isLast ? histogram.high : histogram.low + step * static_cast<float>(bin + 1),
+        histogram.end - step));
+    const std::string ends =
+        fmt::format("least {:.5g}, greatest {:.5g}", histogram.low, histogram.high);
+    ImGui::TextUnformatted(ends.c_str());
+    bench.map.control("image.histogram", ends);
 }
 
 void drawValues(Bench& bench, const ViewedTexture& viewed) {
@@ -163,19 +226,9 @@ void drawValues(Bench& bench, const ViewedTexture& viewed) {
     }
     ImGui::PopTextWrapPos();
     const Showing showing = showingOf(bench.requested(), *bench.result, *bench.reference);
-    const Histogram& histogram = showing.main ? showing.main->histogram : viewed.histogram;
-    std::vector<float> counts;
-    for (const std::uint32_t count : histogram.counts)
-        counts.push_back(std::log2(1.0f + static_cast<float>(count)));
-    ImGui::PlotHistogram("##histogram", counts.data(), static_cast<int>(counts.size()), 0, nullptr,
-                         0.0f, FLT_MAX,
-                         {ImGui::GetContentRegionAvail().x, static_cast<float>(bench.px(70.0))});
-    bench.map.control("image.histogram");
-    tooltip(
-        fmt::format("How many values (logarithm) lie where, from {:.5g} to {:.5g}; the last bar "
-                    "has all above, up to {:.5g}.",
-                    histogram.low, histogram.end, histogram.high));
-    ImGui::Text("least %.5g, greatest %.5g", double(histogram.low), double(histogram.high));
+    for (const std::optional<ShownImage>* image : {&showing.main, &showing.compared}) {
+        if (*image && (*image)->version == viewed.version) drawHistogram(bench, **image);
+    }
 }
 
 void drawProbe(Bench& bench) {

@@ -38,11 +38,8 @@ void drawThumbnail(Bench& bench, const VariantResult& result, const std::string&
     const ViewedTexture* viewed = thumbnailOf(result, pass, resource, index);
     if (viewed == nullptr || viewed->values.width < 1 || viewed->values.height < 1) return;
     const Look look = bench.view.lookOf(resource);
-    const int channel = singleChannel(viewed->content, look.channel);
     const Histogram& histogram =
-        channel >= 0 && static_cast<std::size_t>(channel) < viewed->channelHistograms.size()
-            ? viewed->channelHistograms[static_cast<std::size_t>(channel)]
-            : viewed->histogram;
+        histogramFor(*viewed->histograms, viewed->values, viewed->content, look);
     bench.canvas.show(Canvas::kSides + index, viewed->values, viewed->version,
                       mappingOf(look, viewed->content, histogram, viewed->isEncoded));
     const auto width = static_cast<float>(viewed->values.width);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "framework/gui/texture_reader.h"
 #include "framework/render/view.h"
@@ -42,7 +43,7 @@ class ShownImageTest : public testing::Test {
         viewed.content = contentOf(name, desc);
         viewed.place = describe(viewed.content.space);
         viewed.values = filled(value, static_cast<int>(viewed.content.channels.size()));
-        viewed.histogram = histogramOf(viewed.values);
+        viewed.origin = std::make_shared<const PictureOrigin>();
     }
     [[nodiscard]] Showing showing() const {
         return showingOf({document, kOrder, view}, result, reference);
@@ -162,6 +163,61 @@ TEST_F(ShownImageTest, BarsSayWhatIsBeyondTheirEnds) {
     bar = *showing().main->colorBar();
     EXPECT_EQ(bar.low, -500.0);
     EXPECT_TRUE(bar.clipsHigh);
+}
+
+// Of a red of 1000 the luminance is 212.6.
+TEST_F(ShownImageTest, FalseColoursOfAColourAreOfItsLuminanceAndSoIsAllThatSpeaksOfThem) {
+    ViewedTexture& viewed = *result.variants[0].viewed;
+    viewed.values = filled(0.0f, 4);
+    viewed.values.at(1, 1, 0) = 1000.0f;
+    EXPECT_EQ(showing().main->histogram.high, 1000.0f);
+    view.looks["caustic.irradiance"].isFalseColor = true;
+    const ShownImage image = *showing().main;
+    EXPECT_NEAR(image.histogram.high, 212.639f, 0.01f);
+    EXPECT_NE(image.caption().find("luminance of caustic irradiance, W/m²"), std::string::npos)
+        << image.caption();
+    view.looks["caustic.irradiance"].isRangeAutomatic = false;
+    view.looks["caustic.irradiance"].high = 300.0f;
+    EXPECT_FALSE(showing().main->colorBar()->clipsHigh);
+    // And of one channel alone.
+    view.looks["caustic.irradiance"].channel = Channel::red;
+    EXPECT_EQ(showing().main->histogram.high, 1000.0f);
+    EXPECT_TRUE(showing().main->colorBar()->clipsHigh);
+}
+
+TEST_F(ShownImageTest, AVectorsLengthIsNeverNegative) {
+    render(result.variants[0], "photons.position", -3.0f);
+    EXPECT_EQ(showing().main->histogram.low, -3.0f);
+    view.looks["photons.position"].channel = Channel::luminance;
+    EXPECT_NEAR(showing().main->histogram.low, std::sqrt(27.0f), 1e-5f);
+}
+
+TEST_F(ShownImageTest, WhatAPictureIsOfIsWhatItWasRenderedByAndNotWhatIsSetUp) {
+    Variant planar;
+    planar.technique = "planar";
+    planar.assignments["emit.photons"] = "64x64";
+    result.variants[0].viewed->origin =
+        std::make_shared<const PictureOrigin>(PictureOrigin{"pool", planar, {4, 2}});
+    document.variant.assignments["eye.samples"] = "8";
+    result.document = document;
+    view.comparedWith = ComparedImage::reference;
+    const Showing both = showing();
+    EXPECT_EQ(both.main->identity(), "pool, planar, emit.photons=64x64, 4×2 px");
+    EXPECT_EQ(both.compared->identity(), "");
+    std::map<std::string, std::string> written;
+    for (const auto& [key, value] : both.main->metadata())
+        written[key] = value;
+    EXPECT_EQ(written["technique"], "planar");
+    EXPECT_EQ(written["settings"], "emit.photons=64x64");
+    for (const auto& [key, value] : both.compared->metadata())
+        EXPECT_NE(key, "technique") << value;
+}
+
+TEST_F(ShownImageTest, WholeNumbersAreWrittenWhole) {
+    render(result.variants[0], "caustic.irradiance", 48895.0f);
+    EXPECT_TRUE(showing().main->numbersAt({1, 1}).starts_with("48895\n"));
+    render(result.variants[0], "caustic.irradiance", 1234567.0f);
+    EXPECT_NE(showing().main->valuesAt({1, 1}).find("red 1234567 "), std::string::npos);
 }
 
 // The column next to the picture is as wide as they are.
