@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -22,6 +23,16 @@ TEST(Histogram, CountsEveryFiniteValueOnce) {
     EXPECT_EQ(histogram.high, 99.0f);
     EXPECT_NEAR(histogram.bright, 98.0f, 1.0f);
     EXPECT_EQ(std::accumulate(histogram.counts.begin(), histogram.counts.end(), 0u), 98u);
+}
+
+TEST(Histogram, OfColoursTogetherIsOfTheirLuminanceOrLength) {
+    Image image(1, 2, 3);
+    image.values = {3.0f, 0.0f, 4.0f, 1.0f, 1.0f, 1.0f};
+    EXPECT_NEAR(histogramOf(image, Together::length).high, 5.0f, 1e-6f);
+    EXPECT_NEAR(histogramOf(image, Together::length).low, std::sqrt(3.0f), 1e-6f);
+    EXPECT_NEAR(histogramOf(image, Together::luminance).high, 1.0f, 1e-6f);
+    EXPECT_NEAR(histogramOf(image, Together::luminance).low, 3 * 0.2126390f + 4 * 0.0721923f,
+                1e-5f);
 }
 
 TEST(Histogram, LeavesOutAlphaAndAFewBrightPixels) {
