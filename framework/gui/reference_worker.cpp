@@ -226,6 +226,7 @@ void ReferenceWorker::run() {
 void ReferenceWorker::useLoaded(const Loaded& loaded) {
     working_.version = ++versions_;
     working_.photons = loaded.whole ? loaded.whole->photons : 0;
+    working_.allPhotons = working_.photons + (loaded.modelled ? loaded.modelled->photons : 0);
     working_.relativeError = loaded.whole ? loaded.whole->relativeError : 0.0;
     working_.irradiance =
         loaded.whole ? std::make_shared<const Image>(loaded.whole->irradiance) : nullptr;
@@ -296,9 +297,12 @@ void ReferenceWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
     if (loaded.whole && after == 0)
         working_.problem = "No light hits a specular surface: there is no caustic to compare.";
     if (after >= photons || (loaded.whole && after == 0)) stopComputing();
+    const std::uint64_t allBefore = working_.allPhotons;
     useLoaded(loaded);
-    for (ReferenceState::Judgement& judgement : working_.judgements)
-        judgement.order = 0;  // by a worse reference: frames are to be judged again
+    if (working_.allPhotons != allBefore) {
+        for (ReferenceState::Judgement& judgement : working_.judgements)
+            judgement.order = 0;  // by a worse reference: frames are to be judged again
+    }
     post();
 }
 

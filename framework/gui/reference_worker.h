@@ -48,6 +48,7 @@ struct ReferenceState {
     std::uint64_t version = 0;        // of the pictures below: no other ones have it
     std::optional<ReferenceAim> aim;  // that all of the following is of
     std::uint64_t photons = 0;        // 0: there is no reference
+    std::uint64_t allPhotons = 0;     // with those of the reference of modelled paths
     double relativeError = 0.0;
     std::shared_ptr<const Image> irradiance;  // W/m², top row first
     struct Judgement {

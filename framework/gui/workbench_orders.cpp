@@ -82,7 +82,7 @@ void Workbench::aimReference() {
     referenceWorker_.aim(aim);
     // Frames of one order and the same shaders are the same: one is judged.
     const bool isNew = result.order != judgedOrder_ ||
-                       bench_.reference->photons != judgedPhotons_ ||
+                       bench_.reference->allPhotons != judgedPhotons_ ||
                        result.shaderReloads != judgedReloads_;
     const VariantResult& second = result.variants[1];
     const bool hasBoth = !result.document.other || (second.outputs && second.order == bench_.order);
@@ -91,7 +91,7 @@ void Workbench::aimReference() {
         return;
     }
     judgedOrder_ = result.order;
-    judgedPhotons_ = bench_.reference->photons;
+    judgedPhotons_ = bench_.reference->allPhotons;
     judgedReloads_ = result.shaderReloads;
     referenceWorker_.judge(
         {JudgedFrame{result.order, first.outputs}, JudgedFrame{result.order, second.outputs}});

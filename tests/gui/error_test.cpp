@@ -153,6 +153,17 @@ TEST_F(ErrorPanel, AReferenceThatIsStoppedStaysAndGoesOnLater) {
     });
 }
 
+// Whether or not a photon was added until then.
+TEST_F(ErrorPanel, GoingOnAndStoppingAtOnceLeavesTheErrors) {
+    start();
+    computeReference();
+    bench->typeInto("error.photons", "10000", Entry::controlClick, "Return", {0.2, 0.5});
+    bench->click("error.compute");
+    bench->click("error.stop");
+    untilJudged();
+    EXPECT_TRUE(bench->has("error.rmse"));
+}
+
 TEST_F(ErrorPanel, TheErrorsAreThoseOfARunAgainstTheSameReference) {
     start();
     computeReference();

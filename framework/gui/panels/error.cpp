@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/shown.h"
 #include "framework/gui/widgets.h"
 #include "framework/pipeline/account_sentences.h"
 
@@ -157,13 +158,15 @@ void drawTable(Bench& bench, const char* title, json ReferenceState::Judgement::
 }
 
 // Which frame the errors are of, in a colour that cannot be overlooked where it is not this one.
-void drawJudgedFrame(Bench& bench) {
+// `canRun`: else there is no newer one to come.
+void drawJudgedFrame(Bench& bench, bool canRun) {
     const ReferenceState& reference = *bench.reference;
     const bool isOld = reference.judgements[0].order != bench.result->order;
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextColored(isOld ? kProblemColor : ImVec4(0.45f, 0.75f, 0.45f, 1.0f), "%s",
-                       isOld ? "Errors of a frame before this one; this one is being measured."
-                             : "Errors of this frame.");
+                       !isOld   ? "Errors of this frame."
+                       : canRun ? "Errors of a frame before this one; this one is being measured."
+                                : "Errors of a frame before; what is set up now cannot run.");
     bench.map.control("error.frame", isOld ? "old" : "new");
     const bool isKnown = std::isfinite(reference.relativeError);
     ImGui::TextUnformatted(
@@ -238,10 +241,14 @@ void drawError(Bench& bench) {
     drawReference(bench);
     const ReferenceState& reference = *bench.reference;
     if (reference.photons > 0) {
+        const bool canRun = runObstacle(bench.requested(), *bench.result).empty();
         if (reference.judgements[0].order == 0) {
-            ImGui::TextDisabled("Measuring the frame …");
+            const char* text = canRun ? "Measuring the frame …"
+                                      : "What is set up cannot run: there is no frame to measure.";
+            ImGui::TextDisabled("%s", text);
+            bench.map.control("error.unjudged", text);
         } else {
-            drawJudgedFrame(bench);
+            drawJudgedFrame(bench, canRun);
             drawTableButtons(bench, "errors", errorTable(reference, bench.document.other ? 2 : 1));
             drawTable(bench, "by all paths", &ReferenceState::Judgement::whole);
             drawTable(bench, "by modelled paths", &ReferenceState::Judgement::modelled);
