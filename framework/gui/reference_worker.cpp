@@ -38,15 +38,17 @@ ReferenceWorker::~ReferenceWorker() {
     thread_.join();
 }
 
-void ReferenceWorker::aim(const ReferenceAim& aim) {
+bool ReferenceWorker::aim(const ReferenceAim& aim) {
+    bool hasEnded = false;
     {
         const std::lock_guard lock(mutex_);
-        if (wantedAim_ == aim) return;
+        if (wantedAim_ == aim) return false;
         wantedAim_ = aim;
-        wantedPhotons_ = 0;
+        hasEnded = std::exchange(wantedPhotons_, 0) > 0;
         wantedFrames_.reset();
     }
     wake_.notify_all();
+    return hasEnded;
 }
 
 void ReferenceWorker::compute(std::uint64_t photons) {

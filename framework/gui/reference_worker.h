@@ -71,8 +71,9 @@ class ReferenceWorker {
     ReferenceWorker(const ReferenceWorker&) = delete;
     ReferenceWorker& operator=(const ReferenceWorker&) = delete;
 
-    // What the reference should be of, from now on; ends a computation of something else.
-    void aim(const ReferenceAim& aim);
+    // What the reference should be of, from now on; true where it ends a computation of something
+    // else.
+    [[nodiscard]] bool aim(const ReferenceAim& aim);
     // Goes on computing until there are so many photons.
     void compute(std::uint64_t photons);
     // Ends it within a moment; what there is by whole batches stays.

@@ -79,7 +79,12 @@ void Workbench::aimReference() {
     }
     const ReferenceAim aim{result.document.scene, result.document.edits, result.document.size,
                            first.paths, submitted_.sceneReloads};
-    referenceWorker_.aim(aim);
+    if (referenceWorker_.aim(aim)) {
+        bench_.notify(
+            "The reference that was being computed is of another view, or of other modelled paths; "
+            "computing it has ended.",
+            true);
+    }
     // Frames of one order and the same shaders are the same: one is judged.
     const bool isNew = result.order != judgedOrder_ ||
                        bench_.reference->allPhotons != judgedPhotons_ ||

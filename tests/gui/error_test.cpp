@@ -64,6 +64,11 @@ TEST_F(ErrorPanel, TheInterfaceGoesOnWhileAReferenceIsComputed) {
     const json camera = document().at("edits");
     bench->drag("picture", 30, 0);
     EXPECT_NE(document().at("edits"), camera);
+    // Nobody computes the other view's any more, and that is said.
+    bench->waitFor("the end of the work", [](const json& screen) {
+        return screen.at("controls").contains("error.compute");
+    });
+    EXPECT_TRUE(says("status.message", "computing it has ended")) << bench->value("status.message");
     bench->key("r");
 }
 

@@ -257,6 +257,21 @@ TEST_F(RecordPanel, TwoVariantsAreTwoRunsOfAnExperiment) {
     expectSameImages(runs[isFirstA ? 1 : 0], folder / "b");
 }
 
+TEST_F(RecordPanel, NumbersAreTakenAsTypedOrItIsSaid) {
+    start();
+    open("Record");
+    const std::string before = bench->value("record.frames");
+    bench->typeInto("record.frames", "1,5", Entry::click, "Return", {0.2, 0.5});
+    EXPECT_EQ(bench->value("record.frames"), before);
+    EXPECT_TRUE(says("status.message", "pictures takes a whole number"))
+        << bench->value("status.message");
+    bench->typeInto("record.step", "0.0005", Entry::controlClick, "Return", {0.2, 0.5});
+    EXPECT_EQ(bench->value("record.step"), "0.0005");
+    bench->typeInto("record.step", "20", Entry::controlClick, "Return", {0.2, 0.5});
+    EXPECT_EQ(bench->value("record.step"), "10");
+    EXPECT_TRUE(says("status.message", "of 20 it has taken 10")) << bench->value("status.message");
+}
+
 TEST_F(RecordPanel, AFolderThatCannotBeWrittenIsSaidSo) {
     static_cast<void>(folder.file("occupied", "a file"));
     start();

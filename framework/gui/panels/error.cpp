@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/shown.h"
 #include "framework/gui/widgets.h"
@@ -49,15 +50,20 @@ void drawReference(Bench& bench) {
 
     auto millions = static_cast<float>(bench.panels.referencePhotons * 1e-6);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-    if (ImGui::SliderFloat("million photons", &millions, 1.0f, 10000.0f, "%.3g",
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
-        bench.panels.referencePhotons = double(millions) * 1e6;
+    constexpr const char* kLabel = "million photons";
+    bool isChanged =
+        ImGui::SliderFloat(kLabel, &millions, 1.0f, 10000.0f, "%.6g", ImGuiSliderFlags_Logarithmic);
+    bench.map.control("error.photons", fmt::format("{:.6g}", millions));
+    // Before it is done with, each sign that was typed is a number.
+    if (ImGui::IsItemDeactivatedAfterEdit()) {
+        keepWithin(bench, kLabel, millions, 1.0f, 10000.0f);
+        isChanged = true;
     }
-    bench.map.control("error.photons");
+    if (isChanged) bench.panels.referencePhotons = double(millions) * 1e6;
     if (progress.isComputing || progress.isEnding) {
-        ImGui::ProgressBar(static_cast<float>(progress.share), {-FLT_MIN, 0.0f},
-                           progress.reached.c_str());
+        ImGui::ProgressBar(static_cast<float>(progress.share), {-FLT_MIN, 0.0f}, "");
         bench.map.control("error.progress", fmt::format("{}", progress.share));
+        ImGui::TextWrapped("%s", progress.reached.c_str());
         ImGui::BeginDisabled(progress.isEnding);
         const char* label = progress.isEnding ? "Stopping …" : "Stop (what there is stays)";
         if (ImGui::Button(label)) bench.referenceWorker.stopComputing();

@@ -6,6 +6,7 @@
 
 #include "framework/core/error.h"
 #include "framework/gui/experiment_file.h"
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
@@ -91,12 +92,14 @@ void drawRecord(Bench& bench) {
     drawReport(bench, folder, explain);
     ImGui::Spacing();
     ImGui::SetNextItemWidth(widthBeside("seconds between"));
-    ImGui::InputInt("pictures", &bench.panels.sequenceFrames);
-    bench.map.control("record.frames", fmt::format("{}", bench.panels.sequenceFrames));
-    bench.panels.sequenceFrames = std::clamp(bench.panels.sequenceFrames, 1, 1000000);
-    ImGui::SetNextItemWidth(widthBeside("seconds between"));
-    ImGui::DragFloat("seconds between", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4f",
-                     ImGuiSliderFlags_AlwaysClamp);
+    static_cast<void>(inputCount(bench, "pictures", bench.panels.sequenceFrames, 1,
+                                 PanelState::kMaxSequenceFrames, "record.frames"));
+    constexpr const char* kStep = "seconds between";
+    ImGui::SetNextItemWidth(widthBeside(kStep));
+    ImGui::DragFloat(kStep, &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4g");
+    // Before it is done with, each sign that was typed is a number.
+    if (ImGui::IsItemDeactivatedAfterEdit())
+        keepWithin(bench, kStep, bench.panels.sequenceStep, 0.0001f, 10.0f);
     bench.map.control("record.step", fmt::format("{}", bench.panels.sequenceStep));
     if (button(bench, "Image sequence", "record.sequence")) {
         RecordRequest request;

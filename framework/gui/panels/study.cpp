@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "framework/core/error.h"
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/error_time_plot.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/study_axes.h"
@@ -101,9 +102,8 @@ void drawPlan(Bench& bench, const Intended& all) {
 void drawTerms(Bench& bench) {
     PanelState& panels = bench.panels;
     ImGui::SetNextItemWidth(static_cast<float>(bench.px(90.0)));
-    ImGui::InputInt("frames each", &panels.studyFrames);
-    panels.studyFrames = std::clamp(panels.studyFrames, 1, 10000);
-    bench.map.control("study.frames", fmt::format("{}", panels.studyFrames));
+    static_cast<void>(
+        inputCount(bench, "frames each", panels.studyFrames, 1, 10000, "study.frames"));
     ImGui::BeginDisabled(!kHasReference);
     static_cast<void>(checkbox(bench, "with errors", panels.judgesStudies, "study.judged"));
     ImGui::EndDisabled();
