@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/study_worker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +12,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/shell_word.h"
 #include "framework/experiment/process.h"
 
 namespace kaustik::gui {
@@ -42,6 +45,11 @@ std::size_t StudyState::finished() const {
     }));
 }
 
+std::string resumeCommand(const StudyState& study) {
+    return fmt::format("kaustik experiment run {} --out {} --resume", shellWord(study.experiment),
+                       shellWord(study.folder.string()));
+}
+
 StudyWorker::StudyWorker(std::function<void()> onUpdate) : onUpdate_(std::move(onUpdate)) {}
 
 StudyWorker::~StudyWorker() {
@@ -72,6 +80,7 @@ void StudyWorker::start(const Study& study, const ExperimentTerms& terms, const 
     working_.isRunning = true;
     working_.study = study;
     working_.terms = terms;
+    working_.folder = folder / name;
     for (Variant& variant : variantsOf(study))
         working_.runs.push_back({std::move(variant), StudyRun::Status::waiting, 0.0, {}, ""});
     post();
@@ -87,7 +96,6 @@ void StudyWorker::run(const Registry& registry, fs::path folder, std::string nam
         const std::vector<fs::path> files =
             writeStudy(working_.study, registry, folder, name, working_.terms);
         working_.experiment = files.front().string();
-        working_.folder = folder / name;
         post();
         Clock::time_point looked = Clock::now();
         const experiment::ProcessOutcome outcome = experiment::runProcess(

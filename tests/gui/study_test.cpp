@@ -125,7 +125,7 @@ TEST_F(StudyPanel, IsCancelledAndSaysHowItGoesOn) {
     EXPECT_TRUE(bench->has("study.cancel"));
     bench->click("study.cancel");
     untilStudy("idle: ");
-    EXPECT_TRUE(says("study.remark", "--resume' does the rest")) << bench->value("study.remark");
+    EXPECT_TRUE(says("study.remark", "--resume` does the rest")) << bench->value("study.remark");
     EXPECT_FALSE(bench->has("study.cancel"));
     untilSettled();
 }

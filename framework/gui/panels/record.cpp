@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "framework/core/error.h"
+#include "framework/core/shell_word.h"
 #include "framework/gui/experiment_file.h"
 #include "framework/gui/number_fields.h"
 #include "framework/gui/panels/panels.h"
@@ -20,14 +21,14 @@ void saveExperiment(Bench& bench) {
         if (hasSameView(*bench.reference, bench.document))
             terms.referencePhotons = bench.reference->photons;
         const std::vector<std::filesystem::path> files =
-            writeExperiment(bench.document, bench.registry, bench.panels.recordFolder,
+            writeExperiment(bench.document, bench.registry, recordFolder(bench.panels),
                             recordingName(bench.document.scene), terms);
         bench.notify(
-            fmt::format("Wrote {}; 'kaustik experiment run {}' does it again{}.",
-                        files.front().string(), files.front().string(),
+            fmt::format("Wrote {}; `kaustik experiment run {}` does it again{}.",
+                        files.front().string(), shellWord(files.front().string()),
                         terms.referencePhotons > 0 ? ", errors by its reference too" : ""));
     } catch (const std::exception& error) {
-        bench.notify(error.what(), true);
+        bench.notifyUnwritten(error.what());
     }
 }
 
@@ -69,8 +70,11 @@ void drawReport(Bench& bench, const std::filesystem::path& folder,
 void drawRecord(Bench& bench) {
     ImGui::TextUnformatted("Folder");
     ImGui::SetNextItemWidth(-FLT_MIN);
-    inputText(bench, "##folder", "", bench.panels.recordFolder, "record.folder");
-    const std::filesystem::path folder = bench.panels.recordFolder;
+    inputText(bench, "##folder", "the folder that the program was started in",
+              bench.panels.recordFolder, "record.folder");
+    const std::filesystem::path folder = recordFolder(bench.panels);
+    std::error_code ignored;
+    tooltip(std::filesystem::absolute(folder, ignored).lexically_normal().string());
     const RenderWorker::Recording recording = bench.renderer->recording();
 
     ImGui::Spacing();
