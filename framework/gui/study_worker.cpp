@@ -25,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 // This very program, even when it is built anew meanwhile.
 constexpr const char* kThisProgram = "/proc/self/exe";
 constexpr std::chrono::milliseconds kTimeBetweenLooks{200};
+constexpr const char* kPlanFile = "experiment.json";  // of a study's folder
 
 json readJson(const fs::path& file) {
     return json::parse(readFile(file));
@@ -121,6 +122,12 @@ void StudyWorker::run(const Registry& registry, fs::path folder, std::string nam
     } catch (const std::exception& error) {
         working_.problem = error.what();
     }
+    std::error_code ignored;
+    if (!hashes_.empty() && !fs::exists(working_.folder / kPlanFile, ignored)) {
+        working_.problem =
+            fmt::format("The folder {} was removed while the study ran, and its results with it.",
+                        working_.folder.string());
+    }
     working_.isRunning = false;
     working_.isEnding = false;
     post();
@@ -128,7 +135,7 @@ void StudyWorker::run(const Registry& registry, fs::path folder, std::string nam
 
 bool StudyWorker::gather() {
     std::error_code ignored;
-    const fs::path file = working_.folder / "experiment.json";
+    const fs::path file = working_.folder / kPlanFile;
     if (hashes_.empty()) {
         if (!fs::exists(file, ignored)) return false;
         const json plan = readJson(file);

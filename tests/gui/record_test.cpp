@@ -157,6 +157,7 @@ TEST_F(RecordPanel, AReportIsCancelledWhileItsReferenceIsComputed) {
     bench->click("record.cancel");
     untilRecorded();
     EXPECT_TRUE(says("record.state", "cancelled")) << bench->value("record.state");
+    EXPECT_TRUE(fs::is_empty(folder / "out")) << "a folder without a file is left";
     untilSettled();
     EXPECT_EQ(bench->status().at("error"), "");
 }
@@ -284,6 +285,10 @@ TEST_F(RecordPanel, AFolderThatCannotBeWrittenIsSaidSo) {
     EXPECT_TRUE(says("record.state", "occupied"));
     EXPECT_FALSE(says("record.state", "--out"));
     bench->keepScreenshot("record-refused");
+    EXPECT_TRUE(says("status.message", "occupied"));
+    bench->typeInto("record.folder", "out");
+    EXPECT_EQ(bench->status().at("message"), "") << "the folder is another one";
+    EXPECT_EQ(bench->value("record.state"), "idle: ");
     untilSettled();
     EXPECT_EQ(bench->status().at("error"), "");
 }

@@ -63,12 +63,13 @@ void drawReference(Bench& bench) {
     if (progress.isComputing || progress.isEnding) {
         ImGui::ProgressBar(static_cast<float>(progress.share), {-FLT_MIN, 0.0f}, "");
         bench.map.control("error.progress", fmt::format("{}", progress.share));
-        ImGui::TextWrapped("%s", progress.reached.c_str());
         ImGui::BeginDisabled(progress.isEnding);
         const char* label = progress.isEnding ? "Stopping …" : "Stop (what there is stays)";
         if (ImGui::Button(label)) bench.referenceWorker.stopComputing();
         bench.map.control("error.stop", progress.isEnding ? "stopping" : "");
         ImGui::EndDisabled();
+        // Below the button, which does not move when there is more to say.
+        ImGui::TextWrapped("%s", progress.reached.c_str());
     } else if (isOfThisView) {
         const bool isEnough =
             static_cast<double>(reference.photons) >= bench.panels.referencePhotons;

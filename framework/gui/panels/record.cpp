@@ -75,7 +75,10 @@ void drawRecord(Bench& bench) {
     const std::filesystem::path folder = recordFolder(bench.panels);
     std::error_code ignored;
     tooltip(std::filesystem::absolute(folder, ignored).lexically_normal().string());
-    const RenderWorker::Recording recording = bench.renderer->recording();
+    RenderWorker::Recording recording = bench.renderer->recording();
+    // Why one folder was refused is of no interest once there is another one.
+    if (recording.hasFailed && recording.folder != folder / recording.folder.filename())
+        recording.message.clear();
 
     ImGui::Spacing();
     if (button(bench, "Screenshot of the window (F12)", "record.screenshot"))
