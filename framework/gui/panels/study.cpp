@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "framework/core/error.h"
+#include "framework/core/names.h"
 #include "framework/core/shell_word.h"
 #include "framework/gui/number_fields.h"
 #include "framework/gui/panels/error_time_plot.h"
@@ -34,7 +35,8 @@ struct Intended {
     Study study;
     ExperimentTerms terms;
     std::size_t runs = 0;
-    std::string obstacle;  // why it cannot be run
+    std::string obstacle;           // why it cannot be run
+    std::vector<std::string> idle;  // what is varied without an effect
 };
 
 Intended intended(const Bench& bench, const std::vector<TypedAxis>& typed) {
@@ -44,6 +46,7 @@ Intended intended(const Bench& bench, const std::vector<TypedAxis>& typed) {
     all.study.document.other.reset();
     for (const TypedAxis& axis : typed) {
         all.study.axes.push_back(axis.axis);
+        if (!axis.hasEffect) all.idle.push_back(axis.axis.key);
         if (!axis.problem.empty() && all.obstacle.empty())
             all.obstacle = fmt::format("The values of {} are not right yet.", axis.axis.key);
     }
@@ -81,6 +84,10 @@ void drawPlan(Bench& bench, const Intended& all) {
                 durationText(expectedSeconds(all.study, all.terms.frames, known, bench.points)));
         }
         text += ".";
+        if (!all.idle.empty()) {
+            text += fmt::format(" Counted too is what has no effect as it is: {}.",
+                                joinNames(all.idle));
+        }
         const bool isThere =
             bench.reference->photons > 0 && bench.reference->photons == all.terms.referencePhotons;
         if (all.terms.referencePhotons > 0) {
