@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -59,7 +60,8 @@ void drawReference(Bench& bench) {
         keepWithin(bench, kLabel, millions, 1.0f, 10000.0f);
         isChanged = true;
     }
-    if (isChanged) bench.panels.referencePhotons = double(millions) * 1e6;
+    // A count of photons at any time, whatever is being typed.
+    if (isChanged) bench.panels.referencePhotons = double(std::clamp(millions, 0.0f, 1e12f)) * 1e6;
     if (progress.isComputing || progress.isEnding) {
         ImGui::ProgressBar(static_cast<float>(progress.share), {-FLT_MIN, 0.0f}, "");
         bench.map.control("error.progress", fmt::format("{}", progress.share));
