@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +28,9 @@
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
+
+// How long good news stands in the place of what is said of the picture.
+inline constexpr std::chrono::seconds kGoodMessageTime{15};
 
 struct Bench {
     const Registry& registry;
@@ -93,16 +97,26 @@ struct Bench {
     bool showsHelp = false;
 
     // `isOver` says when it no longer holds; by default once the user has gone on and changed the
-    // document.
+    // document, or after a while where nothing is wrong.
     void notify(std::string text, bool isBad = false,
                 std::function<bool(const Bench&)> isOver = {}) {
         message = std::move(text);
         isMessageBad = isBad;
         isMessageOver = std::move(isOver);
         if (isMessageOver) return;
-        isMessageOver = [said = withoutTime(document)](const Bench& bench) {
-            return !(withoutTime(bench.document) == said);
+        isMessageOver = [said = withoutTime(document), isBad,
+                         begin = std::chrono::steady_clock::now()](const Bench& bench) {
+            const auto age = std::chrono::steady_clock::now() - begin;
+            return !(withoutTime(bench.document) == said) || (!isBad && age > kGoodMessageTime);
         };
+    }
+    // That something could not be written: of no interest once another folder is chosen.
+    void notifyUnwritten(std::string text) {
+        notify(std::move(text), true,
+               [said = withoutTime(document), folder = panels.recordFolder](const Bench& bench) {
+                   return !(withoutTime(bench.document) == said) ||
+                          bench.panels.recordFolder != folder;
+               });
     }
     void dropOldMessage() {
         if (!message.empty() && isMessageOver && isMessageOver(*this)) message.clear();

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cstdlib>
 #include <ctime>
-#include <filesystem>
 
 namespace kaustik::gui {
 
@@ -19,6 +19,14 @@ std::string recordingName(const std::string& scene) {
     }
     return fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}", name, local.tm_year + 1900,
                        local.tm_mon + 1, local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+std::filesystem::path recordFolder(const PanelState& panels) {
+    const std::string& typed = panels.recordFolder;
+    if (typed.empty()) return ".";
+    const char* home = std::getenv("HOME");
+    const bool isInHome = typed == "~" || typed.starts_with("~/");
+    return isInHome && home != nullptr ? home + typed.substr(1) : typed;
 }
 
 }  // namespace kaustik::gui

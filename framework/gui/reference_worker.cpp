@@ -38,15 +38,17 @@ ReferenceWorker::~ReferenceWorker() {
     thread_.join();
 }
 
-void ReferenceWorker::aim(const ReferenceAim& aim) {
+bool ReferenceWorker::aim(const ReferenceAim& aim) {
+    bool hasEnded = false;
     {
         const std::lock_guard lock(mutex_);
-        if (wantedAim_ == aim) return;
+        if (wantedAim_ == aim) return false;
         wantedAim_ = aim;
-        wantedPhotons_ = 0;
+        hasEnded = std::exchange(wantedPhotons_, 0) > 0;
         wantedFrames_.reset();
     }
     wake_.notify_all();
+    return hasEnded;
 }
 
 void ReferenceWorker::compute(std::uint64_t photons) {
@@ -226,6 +228,7 @@ void ReferenceWorker::run() {
 void ReferenceWorker::useLoaded(const Loaded& loaded) {
     working_.version = ++versions_;
     working_.photons = loaded.whole ? loaded.whole->photons : 0;
+    working_.allPhotons = working_.photons + (loaded.modelled ? loaded.modelled->photons : 0);
     working_.relativeError = loaded.whole ? loaded.whole->relativeError : 0.0;
     working_.irradiance =
         loaded.whole ? std::make_shared<const Image>(loaded.whole->irradiance) : nullptr;
@@ -298,9 +301,12 @@ void ReferenceWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
     if (loaded.whole && after == 0)
         working_.problem = "No light hits a specular surface: there is no caustic to compare.";
     if (after >= photons || (loaded.whole && after == 0)) stopComputing();
+    const std::uint64_t allBefore = working_.allPhotons;
     useLoaded(loaded);
-    for (ReferenceState::Judgement& judgement : working_.judgements)
-        judgement.order = 0;  // by a worse reference: frames are to be judged again
+    if (working_.allPhotons != allBefore) {
+        for (ReferenceState::Judgement& judgement : working_.judgements)
+            judgement.order = 0;  // by a worse reference: frames are to be judged again
+    }
     post();
 }
 

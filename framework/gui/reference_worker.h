@@ -48,6 +48,7 @@ struct ReferenceState {
     std::uint64_t version = 0;        // of the pictures below: no other ones have it
     std::optional<ReferenceAim> aim;  // that all of the following is of
     std::uint64_t photons = 0;        // 0: there is no reference
+    std::uint64_t allPhotons = 0;     // with those of the reference of modelled paths
     double relativeError = 0.0;
     std::shared_ptr<const Image> irradiance;  // W/m², top row first
     std::shared_ptr<Histograms> histograms = std::make_shared<Histograms>();  // of that
@@ -71,8 +72,9 @@ class ReferenceWorker {
     ReferenceWorker(const ReferenceWorker&) = delete;
     ReferenceWorker& operator=(const ReferenceWorker&) = delete;
 
-    // What the reference should be of, from now on; ends a computation of something else.
-    void aim(const ReferenceAim& aim);
+    // What the reference should be of, from now on; true where it ends a computation of something
+    // else.
+    [[nodiscard]] bool aim(const ReferenceAim& aim);
     // Goes on computing until there are so many photons.
     void compute(std::uint64_t photons);
     // Ends it within a moment; what there is by whole batches stays.

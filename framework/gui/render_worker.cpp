@@ -75,8 +75,8 @@ void RenderWorker::record(RecordRequest request) {
     {
         const std::lock_guard lock(mutex_);
         cancelRecording_ = false;
+        recording_ = {true, "waiting for the frame at hand", false, request.folder};
         request_ = std::move(request);
-        recording_ = {true, "waiting for the frame at hand", false};
     }
     wake_.notify_all();
 }
@@ -93,6 +93,7 @@ RenderWorker::Recording RenderWorker::recording() const {
 void RenderWorker::setRecording(Recording state) {
     {
         const std::lock_guard lock(mutex_);
+        state.folder = std::move(recording_.folder);
         recording_ = std::move(state);
     }
     onUpdate_();

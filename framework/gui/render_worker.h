@@ -79,6 +79,7 @@ class RenderWorker {
         bool isActive = false;
         std::string message;  // how far it is, or how it ended
         bool hasFailed = false;
+        std::filesystem::path folder = {};  // RecordRequest::folder; record() knows it
     };
     [[nodiscard]] Recording recording() const;
 

@@ -2,6 +2,8 @@
 // The render worker's recordings: the report of a run, or the pictures of a sequence.
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -11,6 +13,16 @@
 
 namespace kaustik::gui {
 namespace fs = std::filesystem;
+namespace {
+
+// What ends before its first file leaves nothing behind.
+void removeIfEmpty(const fs::path& folder) {
+    std::error_code ignored;
+    if (fs::is_directory(folder, ignored) && fs::is_empty(folder, ignored))
+        fs::remove(folder, ignored);
+}
+
+}  // namespace
 
 void RenderWorker::writeRecording(Device& device, const RecordRequest& request) {
     try {
@@ -27,6 +39,7 @@ void RenderWorker::writeRecording(Device& device, const RecordRequest& request) 
         // A reference that is ended in the middle is an error for others.
         setRecording({false, cancelRecording_ ? "The report was cancelled." : error.what(), true});
     }
+    removeIfEmpty(request.folder);
     // The picture that is shown comes back by a frame of its own.
     device.framesDone = 0;
     device.toRender = 0;
@@ -89,10 +102,11 @@ void RenderWorker::writeSequence(Device& device, const RecordRequest& request) {
     const run::FrameSeries series{.frames = request.frames,
                                   .timeStepSeconds = request.secondsPerFrame};
     if (!session.render(series, {shouldContinue, write}).isWhole) {
-        return setRecording({false,
-                             fmt::format("Cancelled after {} of {} pictures, which are in {}.",
-                                         written, request.frames, request.folder.string()),
-                             true});
+        const std::string message =
+            written == 0 ? "Cancelled before the first picture."
+                         : fmt::format("Cancelled after {} of {} pictures, which are in {}.",
+                                       written, request.frames, request.folder.string());
+        return setRecording({false, message, true});
     }
     setRecording(
         {false, fmt::format("Wrote {} pictures into {}.", request.frames, request.folder.string()),

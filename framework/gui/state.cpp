@@ -212,7 +212,8 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     panels.take("judged_reports", kept.panels.judgesReports);
     kept.panels.referencePhotons = double(panels.between("truth_photons", 8e6f, 1e5f, 1e12f));
     panels.take("record_folder", kept.panels.recordFolder);
-    kept.panels.sequenceFrames = panels.between("sequence_frames", 60, 1, 100000);
+    kept.panels.sequenceFrames =
+        panels.between("sequence_frames", 60, 1, PanelState::kMaxSequenceFrames);
     kept.panels.sequenceStep = panels.between("sequence_step", 1.0f / 30.0f, 1e-4f, 10.0f);
     Part window(j, "window", problems);
     kept.window.width = window.between("width", 1440, 400, 16384);

@@ -83,6 +83,7 @@ struct PanelState {
     bool judgesReports = true;  // against the reference
     double referencePhotons = 8e6;
     std::string recordFolder = "results/runs/workbench";
+    static constexpr int kMaxSequenceFrames = 100000;
     int sequenceFrames = 60;
     float sequenceStep = 1.0f / 30.0f;  // s
 };

@@ -31,7 +31,8 @@ struct Study {
 
 struct TypedAxis {
     StudyAxis axis;
-    std::string problem;  // why it cannot be; "" where it can
+    std::string problem;    // why it cannot be; "" where it can
+    bool hasEffect = true;  // with the settings at hand, where that is known
 };
 // The values that were typed, apart by blanks or semicolons (a comma may end one), as the parameter
 // itself writes them, in their order. What repeats another one is left out.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/study_worker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +12,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/shell_word.h"
 #include "framework/experiment/process.h"
 
 namespace kaustik::gui {
@@ -22,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 // This very program, even when it is built anew meanwhile.
 constexpr const char* kThisProgram = "/proc/self/exe";
 constexpr std::chrono::milliseconds kTimeBetweenLooks{200};
+constexpr const char* kPlanFile = "experiment.json";  // of a study's folder
 
 json readJson(const fs::path& file) {
     return json::parse(readFile(file));
@@ -40,6 +44,11 @@ std::size_t StudyState::finished() const {
     return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const auto& run) {
         return run.status != StudyRun::Status::waiting;
     }));
+}
+
+std::string resumeCommand(const StudyState& study) {
+    return fmt::format("kaustik experiment run {} --out {} --resume", shellWord(study.experiment),
+                       shellWord(study.folder.string()));
 }
 
 StudyWorker::StudyWorker(std::function<void()> onUpdate) : onUpdate_(std::move(onUpdate)) {}
@@ -72,6 +81,7 @@ void StudyWorker::start(const Study& study, const ExperimentTerms& terms, const 
     working_.isRunning = true;
     working_.study = study;
     working_.terms = terms;
+    working_.folder = folder / name;
     for (Variant& variant : variantsOf(study))
         working_.runs.push_back({std::move(variant), StudyRun::Status::waiting, 0.0, {}, ""});
     post();
@@ -87,7 +97,6 @@ void StudyWorker::run(const Registry& registry, fs::path folder, std::string nam
         const std::vector<fs::path> files =
             writeStudy(working_.study, registry, folder, name, working_.terms);
         working_.experiment = files.front().string();
-        working_.folder = folder / name;
         post();
         Clock::time_point looked = Clock::now();
         const experiment::ProcessOutcome outcome = experiment::runProcess(
@@ -113,6 +122,12 @@ void StudyWorker::run(const Registry& registry, fs::path folder, std::string nam
     } catch (const std::exception& error) {
         working_.problem = error.what();
     }
+    std::error_code ignored;
+    if (!hashes_.empty() && !fs::exists(working_.folder / kPlanFile, ignored)) {
+        working_.problem =
+            fmt::format("The folder {} was removed while the study ran, and its results with it.",
+                        working_.folder.string());
+    }
     working_.isRunning = false;
     working_.isEnding = false;
     post();
@@ -120,7 +135,7 @@ void StudyWorker::run(const Registry& registry, fs::path folder, std::string nam
 
 bool StudyWorker::gather() {
     std::error_code ignored;
-    const fs::path file = working_.folder / "experiment.json";
+    const fs::path file = working_.folder / kPlanFile;
     if (hashes_.empty()) {
         if (!fs::exists(file, ignored)) return false;
         const json plan = readJson(file);

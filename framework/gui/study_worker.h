@@ -42,6 +42,9 @@ struct StudyState {
     [[nodiscard]] std::size_t finished() const;
 };
 
+// For a shell: does the runs that a study has not done.
+[[nodiscard]] std::string resumeCommand(const StudyState& study);
+
 class StudyWorker {
   public:
     // `onUpdate` is called on the worker's thread.

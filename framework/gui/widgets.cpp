@@ -106,14 +106,14 @@ void drawTableButtons(Bench& bench, const std::string& name, const Table& table)
     ImGui::SameLine();
     if (ImGui::SmallButton("CSV")) {
         const std::filesystem::path file =
-            std::filesystem::path(bench.panels.recordFolder) /
+            recordFolder(bench.panels) /
             fmt::format("{}-{}.csv", recordingName(bench.document.scene), name);
         try {
             std::filesystem::create_directories(file.parent_path());
             writeFileWhole(file, toCsv(table));
             bench.notify(fmt::format("Wrote {}.", file.string()));
         } catch (const std::exception& error) {
-            bench.notify(error.what(), true);
+            bench.notifyUnwritten(error.what());
         }
     }
     bench.map.control("table.csv." + name);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "framework/core/error.h"
@@ -138,6 +139,12 @@ void Workbench::run() {
     // The pass at hand may take seconds yet.
     keep();
     window_.hide();
+    if (const auto study = studyWorker_.state(); study->isRunning && !study->experiment.empty()) {
+        fmt::print(stderr,
+                   "The study ends with the window, after {} of {} runs; this does the rest:\n"
+                   "{}\n",
+                   study->finished(), study->runs.size(), resumeCommand(*study));
+    }
 }
 
 // How long the window may sleep, s: while the hand is at work not at all.

@@ -119,10 +119,7 @@ void Workbench::useSign(unsigned character) {
             const int index = static_cast<int>(character - '1');
             if (index >= static_cast<int>(bench_.kept.size())) {
                 bench_.notify(
-                    fmt::format("There is no kept variant {}; K keeps what is shown.", index + 1),
-                    false, [index](const Bench& bench) {
-                        return static_cast<int>(bench.kept.size()) > index;
-                    });
+                    fmt::format("There is no kept variant {}; K keeps what is shown.", index + 1));
             } else {
                 bench_.view.flipped = bench_.view.flipped == index ? -1 : index;
             }

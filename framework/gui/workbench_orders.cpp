@@ -79,10 +79,15 @@ void Workbench::aimReference() {
     }
     const ReferenceAim aim{result.document.scene, result.document.edits, result.document.size,
                            first.paths, submitted_.sceneReloads};
-    referenceWorker_.aim(aim);
+    if (referenceWorker_.aim(aim)) {
+        bench_.notify(
+            "The reference that was being computed is of another view, or of other modelled paths; "
+            "computing it has ended.",
+            true);
+    }
     // Frames of one order and the same shaders are the same: one is judged.
     const bool isNew = result.order != judgedOrder_ ||
-                       bench_.reference->photons != judgedPhotons_ ||
+                       bench_.reference->allPhotons != judgedPhotons_ ||
                        result.shaderReloads != judgedReloads_;
     const VariantResult& second = result.variants[1];
     const bool hasBoth = !result.document.other || (second.outputs && second.order == bench_.order);
@@ -91,7 +96,7 @@ void Workbench::aimReference() {
         return;
     }
     judgedOrder_ = result.order;
-    judgedPhotons_ = bench_.reference->photons;
+    judgedPhotons_ = bench_.reference->allPhotons;
     judgedReloads_ = result.shaderReloads;
     referenceWorker_.judge(
         {JudgedFrame{result.order, first.outputs}, JudgedFrame{result.order, second.outputs}});

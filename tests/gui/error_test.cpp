@@ -64,6 +64,11 @@ TEST_F(ErrorPanel, TheInterfaceGoesOnWhileAReferenceIsComputed) {
     const json camera = document().at("edits");
     bench->drag("picture", 30, 0);
     EXPECT_NE(document().at("edits"), camera);
+    // Nobody computes the other view's any more, and that is said.
+    bench->waitFor("the end of the work", [](const json& screen) {
+        return screen.at("controls").contains("error.compute");
+    });
+    EXPECT_TRUE(says("status.message", "computing it has ended")) << bench->value("status.message");
     bench->key("r");
 }
 
@@ -151,6 +156,17 @@ TEST_F(ErrorPanel, AReferenceThatIsStoppedStaysAndGoesOnLater) {
     bench->waitFor("the reference of before", [&](const json& screen) {
         return screen.at("status").at("truth_photons").get<std::uint64_t>() >= reached;
     });
+}
+
+// Whether or not a photon was added until then.
+TEST_F(ErrorPanel, GoingOnAndStoppingAtOnceLeavesTheErrors) {
+    start();
+    computeReference();
+    bench->typeInto("error.photons", "10000", Entry::controlClick, "Return", {0.2, 0.5});
+    bench->click("error.compute");
+    bench->click("error.stop");
+    untilJudged();
+    EXPECT_TRUE(bench->has("error.rmse"));
 }
 
 TEST_F(ErrorPanel, TheErrorsAreThoseOfARunAgainstTheSameReference) {

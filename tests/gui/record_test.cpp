@@ -157,6 +157,7 @@ TEST_F(RecordPanel, AReportIsCancelledWhileItsReferenceIsComputed) {
     bench->click("record.cancel");
     untilRecorded();
     EXPECT_TRUE(says("record.state", "cancelled")) << bench->value("record.state");
+    EXPECT_TRUE(fs::is_empty(folder / "out")) << "a folder without a file is left";
     untilSettled();
     EXPECT_EQ(bench->status().at("error"), "");
 }
@@ -257,6 +258,21 @@ TEST_F(RecordPanel, TwoVariantsAreTwoRunsOfAnExperiment) {
     expectSameImages(runs[isFirstA ? 1 : 0], folder / "b");
 }
 
+TEST_F(RecordPanel, NumbersAreTakenAsTypedOrItIsSaid) {
+    start();
+    open("Record");
+    const std::string before = bench->value("record.frames");
+    bench->typeInto("record.frames", "1,5", Entry::click, "Return", {0.2, 0.5});
+    EXPECT_EQ(bench->value("record.frames"), before);
+    EXPECT_TRUE(says("status.message", "pictures takes a whole number"))
+        << bench->value("status.message");
+    bench->typeInto("record.step", "0.0005", Entry::controlClick, "Return", {0.2, 0.5});
+    EXPECT_EQ(bench->value("record.step"), "0.0005");
+    bench->typeInto("record.step", "20", Entry::controlClick, "Return", {0.2, 0.5});
+    EXPECT_EQ(bench->value("record.step"), "10");
+    EXPECT_TRUE(says("status.message", "of 20 it has taken 10")) << bench->value("status.message");
+}
+
 TEST_F(RecordPanel, AFolderThatCannotBeWrittenIsSaidSo) {
     static_cast<void>(folder.file("occupied", "a file"));
     start();
@@ -269,6 +285,10 @@ TEST_F(RecordPanel, AFolderThatCannotBeWrittenIsSaidSo) {
     EXPECT_TRUE(says("record.state", "occupied"));
     EXPECT_FALSE(says("record.state", "--out"));
     bench->keepScreenshot("record-refused");
+    EXPECT_TRUE(says("status.message", "occupied"));
+    bench->typeInto("record.folder", "out");
+    EXPECT_EQ(bench->status().at("message"), "") << "the folder is another one";
+    EXPECT_EQ(bench->value("record.state"), "idle: ");
     untilSettled();
     EXPECT_EQ(bench->status().at("error"), "");
 }

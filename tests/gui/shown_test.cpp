@@ -81,6 +81,28 @@ class ABrokenNode : public ShownLine {
     ShaderCopies shaders{folder / "root"};
 };
 
+// However much better the reference gets.
+TEST_F(ABrokenNode, IsNotSaidToBeMeasured) {
+    startWith(smallDocument());
+    open("Error");
+    bench->click("error.compute");
+    const auto untilComputed = [&](const char* control) {
+        bench->waitFor(control, [&](const json& screen) {
+            const json& controls = screen.at("controls");
+            return controls.contains(control) && !controls.contains("error.progress");
+        });
+    };
+    untilComputed("error.rmse");
+    open("Technique");
+    choose("stage.trace", "march");
+    untilSettled();
+    open("Error");
+    bench->typeInto("error.photons", "4", Entry::controlClick, "Return", {0.2, 0.5});
+    bench->click("error.compute");
+    untilComputed("error.unjudged");
+    EXPECT_TRUE(says("error.unjudged", "cannot run")) << bench->value("error.unjudged");
+}
+
 TEST_F(ABrokenNode, IsSaidWithAWayBackAndCannotBeSaved) {
     startWith(smallDocument());
     const json before = document();

@@ -125,9 +125,43 @@ TEST_F(StudyPanel, IsCancelledAndSaysHowItGoesOn) {
     EXPECT_TRUE(bench->has("study.cancel"));
     bench->click("study.cancel");
     untilStudy("idle: ");
-    EXPECT_TRUE(says("study.remark", "--resume' does the rest")) << bench->value("study.remark");
+    EXPECT_TRUE(says("study.remark", "--resume` does the rest")) << bench->value("study.remark");
     EXPECT_FALSE(bench->has("study.cancel"));
     untilSettled();
+}
+
+TEST_F(StudyPanel, ThatEndsWithTheWindowSaysHowItGoesOn) {
+    json kept = savedStateWith(smallDocument());
+    kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2 4"})});
+    kept["panels"]["study_frames"] = 4000;
+    kept["panels"]["judged_studies"] = false;
+    start(kept);
+    open("Study");
+    bench->click("study.run");
+    untilStudy("busy: 0 of 3 runs");
+    bench->close();
+    const Outcome outcome = bench->wait();
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_NE(outcome.err.find("\nkaustik experiment run "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("--resume\n"), std::string::npos) << outcome.err;
+}
+
+TEST_F(StudyPanel, WhoseFolderIsRemovedMeanwhileHasNoResults) {
+    json kept = savedStateWith(smallDocument());
+    kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2 4"})});
+    kept["panels"]["study_frames"] = 2;
+    kept["panels"]["judged_studies"] = false;
+    start(kept);
+    open("Study");
+    bench->click("study.run");
+    untilStudy("busy: 1 of 3 runs");
+    fs::path results = experiment();
+    results.replace_extension();
+    fs::remove(results / "experiment.json");
+    std::error_code ignored;  // the next run may be writing
+    fs::remove_all(results, ignored);
+    untilStudy("idle: ");
+    EXPECT_TRUE(says("study.remark", "was removed")) << bench->value("study.remark");
 }
 
 TEST_F(StudyPanel, AFolderThatCannotBeWrittenIsSaidSo) {
@@ -143,6 +177,10 @@ TEST_F(StudyPanel, AFolderThatCannotBeWrittenIsSaidSo) {
     EXPECT_TRUE(says("study.remark", "occupied")) << bench->value("study.remark");
     EXPECT_FALSE(bench->has("study.cancel"));
     bench->keepScreenshot("study-refused");
+    open("Record");
+    bench->typeInto("record.folder", "out");
+    open("Study");
+    EXPECT_FALSE(bench->has("study.remark")) << "the folder is another one";
 }
 
 TEST_F(StudyPanel, IsSavedWithoutBeingRun) {

@@ -54,15 +54,15 @@ void drawClippedEnds(const ColorBar& bar, ImVec2 low, ImVec2 high, float size) {
         draw.AddTriangleFilled({low.x, end}, {high.x, end}, {middle, end + size}, mark);
 }
 
-// `mark`: how far left of the colours a number's place is marked; on them, next to the number, it
-// would be taken for a minus.
+// `mark`: how far right of the colours a number's place is marked; on them or to their left, before
+// the number, it would be taken for a minus.
 void drawTicks(const ColorBar& bar, ImVec2 low, ImVec2 high, float mark) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     float free = FLT_MAX;  // above the last number
     for (const ColorBar::Tick& tick : bar.ticks) {
         const float y = high.y - (high.y - low.y) * static_cast<float>(tick.place);
         const ImU32 ink = inkOn(bar.colorAt(tick.place));
-        draw.AddLine({low.x - mark, y}, {low.x, y}, IM_COL32(255, 255, 255, 255));
+        draw.AddLine({high.x, y}, {high.x + mark, y}, IM_COL32(255, 255, 255, 255));
         const ImVec2 size = labelSize(tick.label);
         // At an end it stands within it.
         const float top = std::clamp(y - 0.5f * size.y, low.y, high.y - size.y);
@@ -99,8 +99,8 @@ void drawColorBar(const Bench& bench, const ShownImage& image, ImVec2 corner, fl
     // Room for what marks values beyond the ends.
     const auto edge = static_cast<float>(bench.px(9.0));
     const auto gap = static_cast<float>(bench.px(3.0));
-    const ImVec2 low(corner.x + gap, corner.y + edge);
-    const ImVec2 high(corner.x + barWidth(bench, image) - 1.0f, corner.y + height - edge);
+    const ImVec2 low(corner.x + 1.0f, corner.y + edge);
+    const ImVec2 high(corner.x + barWidth(bench, image) - gap, corner.y + height - edge);
     if (high.y - low.y < 3.0f * ImGui::GetTextLineHeight()) return;
     drawColors(*bar, low, high);
     drawClippedEnds(*bar, low, high, edge - gap);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/shown.h"
 #include "framework/gui/widgets.h"
 #include "framework/pipeline/account_sentences.h"
 
@@ -48,20 +51,27 @@ void drawReference(Bench& bench) {
 
     auto millions = static_cast<float>(bench.panels.referencePhotons * 1e-6);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-    if (ImGui::SliderFloat("million photons", &millions, 1.0f, 10000.0f, "%.3g",
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
-        bench.panels.referencePhotons = double(millions) * 1e6;
+    constexpr const char* kLabel = "million photons";
+    bool isChanged =
+        ImGui::SliderFloat(kLabel, &millions, 1.0f, 10000.0f, "%.6g", ImGuiSliderFlags_Logarithmic);
+    bench.map.control("error.photons", fmt::format("{:.6g}", millions));
+    // Before it is done with, each sign that was typed is a number.
+    if (ImGui::IsItemDeactivatedAfterEdit()) {
+        keepWithin(bench, kLabel, millions, 1.0f, 10000.0f);
+        isChanged = true;
     }
-    bench.map.control("error.photons");
+    // A count of photons at any time, whatever is being typed.
+    if (isChanged) bench.panels.referencePhotons = double(std::clamp(millions, 0.0f, 1e12f)) * 1e6;
     if (progress.isComputing || progress.isEnding) {
-        ImGui::ProgressBar(static_cast<float>(progress.share), {-FLT_MIN, 0.0f},
-                           progress.reached.c_str());
+        ImGui::ProgressBar(static_cast<float>(progress.share), {-FLT_MIN, 0.0f}, "");
         bench.map.control("error.progress", fmt::format("{}", progress.share));
         ImGui::BeginDisabled(progress.isEnding);
         const char* label = progress.isEnding ? "Stopping …" : "Stop (what there is stays)";
         if (ImGui::Button(label)) bench.referenceWorker.stopComputing();
         bench.map.control("error.stop", progress.isEnding ? "stopping" : "");
         ImGui::EndDisabled();
+        // Below the button, which does not move when there is more to say.
+        ImGui::TextWrapped("%s", progress.reached.c_str());
     } else if (isOfThisView) {
         const bool isEnough =
             static_cast<double>(reference.photons) >= bench.panels.referencePhotons;
@@ -157,13 +167,15 @@ void drawTable(Bench& bench, const char* title, json ReferenceState::Judgement::
 }
 
 // Which frame the errors are of, in a colour that cannot be overlooked where it is not this one.
-void drawJudgedFrame(Bench& bench) {
+// `canRun`: else there is no newer one to come.
+void drawJudgedFrame(Bench& bench, bool canRun) {
     const ReferenceState& reference = *bench.reference;
     const bool isOld = reference.judgements[0].order != bench.result->order;
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextColored(isOld ? kProblemColor : ImVec4(0.45f, 0.75f, 0.45f, 1.0f), "%s",
-                       isOld ? "Errors of a frame before this one; this one is being measured."
-                             : "Errors of this frame.");
+                       !isOld   ? "Errors of this frame."
+                       : canRun ? "Errors of a frame before this one; this one is being measured."
+                                : "Errors of a frame before; what is set up now cannot run.");
     bench.map.control("error.frame", isOld ? "old" : "new");
     const bool isKnown = std::isfinite(reference.relativeError);
     ImGui::TextUnformatted(
@@ -238,10 +250,14 @@ void drawError(Bench& bench) {
     drawReference(bench);
     const ReferenceState& reference = *bench.reference;
     if (reference.photons > 0) {
+        const bool canRun = runObstacle(bench.requested(), *bench.result).empty();
         if (reference.judgements[0].order == 0) {
-            ImGui::TextDisabled("Measuring the frame …");
+            const char* text = canRun ? "Measuring the frame …"
+                                      : "What is set up cannot run: there is no frame to measure.";
+            ImGui::TextDisabled("%s", text);
+            bench.map.control("error.unjudged", text);
         } else {
-            drawJudgedFrame(bench);
+            drawJudgedFrame(bench, canRun);
             drawTableButtons(bench, "errors", errorTable(reference, bench.document.other ? 2 : 1));
             drawTable(bench, "by all paths", &ReferenceState::Judgement::whole);
             drawTable(bench, "by modelled paths", &ReferenceState::Judgement::modelled);

@@ -5,7 +5,9 @@
 #include <functional>
 
 #include "framework/core/error.h"
+#include "framework/core/shell_word.h"
 #include "framework/gui/experiment_file.h"
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
@@ -19,14 +21,14 @@ void saveExperiment(Bench& bench) {
         if (hasSameView(*bench.reference, bench.document))
             terms.referencePhotons = bench.reference->photons;
         const std::vector<std::filesystem::path> files =
-            writeExperiment(bench.document, bench.registry, bench.panels.recordFolder,
+            writeExperiment(bench.document, bench.registry, recordFolder(bench.panels),
                             recordingName(bench.document.scene), terms);
         bench.notify(
-            fmt::format("Wrote {}; 'kaustik experiment run {}' does it again{}.",
-                        files.front().string(), files.front().string(),
+            fmt::format("Wrote {}; `kaustik experiment run {}` does it again{}.",
+                        files.front().string(), shellWord(files.front().string()),
                         terms.referencePhotons > 0 ? ", errors by its reference too" : ""));
     } catch (const std::exception& error) {
-        bench.notify(error.what(), true);
+        bench.notifyUnwritten(error.what());
     }
 }
 
@@ -68,9 +70,15 @@ void drawReport(Bench& bench, const std::filesystem::path& folder,
 void drawRecord(Bench& bench) {
     ImGui::TextUnformatted("Folder");
     ImGui::SetNextItemWidth(-FLT_MIN);
-    inputText(bench, "##folder", "", bench.panels.recordFolder, "record.folder");
-    const std::filesystem::path folder = bench.panels.recordFolder;
-    const RenderWorker::Recording recording = bench.renderer->recording();
+    inputText(bench, "##folder", "the folder that the program was started in",
+              bench.panels.recordFolder, "record.folder");
+    const std::filesystem::path folder = recordFolder(bench.panels);
+    std::error_code ignored;
+    tooltip(std::filesystem::absolute(folder, ignored).lexically_normal().string());
+    RenderWorker::Recording recording = bench.renderer->recording();
+    // Why one folder was refused is of no interest once there is another one.
+    if (recording.hasFailed && recording.folder != folder / recording.folder.filename())
+        recording.message.clear();
 
     ImGui::Spacing();
     if (button(bench, "Screenshot of the window (F12)", "record.screenshot"))
@@ -91,12 +99,14 @@ void drawRecord(Bench& bench) {
     drawReport(bench, folder, explain);
     ImGui::Spacing();
     ImGui::SetNextItemWidth(widthBeside("seconds between"));
-    ImGui::InputInt("pictures", &bench.panels.sequenceFrames);
-    bench.map.control("record.frames", fmt::format("{}", bench.panels.sequenceFrames));
-    bench.panels.sequenceFrames = std::clamp(bench.panels.sequenceFrames, 1, 1000000);
-    ImGui::SetNextItemWidth(widthBeside("seconds between"));
-    ImGui::DragFloat("seconds between", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4f",
-                     ImGuiSliderFlags_AlwaysClamp);
+    static_cast<void>(inputCount(bench, "pictures", bench.panels.sequenceFrames, 1,
+                                 PanelState::kMaxSequenceFrames, "record.frames"));
+    constexpr const char* kStep = "seconds between";
+    ImGui::SetNextItemWidth(widthBeside(kStep));
+    ImGui::DragFloat(kStep, &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4g");
+    // Before it is done with, each sign that was typed is a number.
+    if (ImGui::IsItemDeactivatedAfterEdit())
+        keepWithin(bench, kStep, bench.panels.sequenceStep, 0.0001f, 10.0f);
     bench.map.control("record.step", fmt::format("{}", bench.panels.sequenceStep));
     if (button(bench, "Image sequence", "record.sequence")) {
         RecordRequest request;

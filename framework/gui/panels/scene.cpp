@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/picture_choice.h"
 #include "framework/gui/widgets.h"
@@ -98,8 +99,9 @@ void drawTime(Bench& bench, const SceneFacts& facts) {
                           "%.4f", ImGuiSliderFlags_AlwaysClamp))
         edits.timeSeconds = time;
     bench.map.control("scene.time", fmt::format("{}", time));
-    ImGui::DragFloat("step, s", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4f",
-                     ImGuiSliderFlags_AlwaysClamp);
+    ImGui::DragFloat("step, s", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4g");
+    if (ImGui::IsItemDeactivatedAfterEdit())
+        keepWithin(bench, "step, s", bench.panels.sequenceStep, 0.0001f, 10.0f);
     if (!facts.needs.animated) ImGui::TextDisabled("Nothing moves in this scene.");
 }
 

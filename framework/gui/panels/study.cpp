@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <filesystem>
 #include <map>
 #include <optional>
 
 #include "framework/core/error.h"
+#include "framework/core/names.h"
+#include "framework/core/shell_word.h"
+#include "framework/gui/number_fields.h"
 #include "framework/gui/panels/error_time_plot.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/study_axes.h"
@@ -31,7 +35,8 @@ struct Intended {
     Study study;
     ExperimentTerms terms;
     std::size_t runs = 0;
-    std::string obstacle;  // why it cannot be run
+    std::string obstacle;           // why it cannot be run
+    std::vector<std::string> idle;  // what is varied without an effect
 };
 
 Intended intended(const Bench& bench, const std::vector<TypedAxis>& typed) {
@@ -41,6 +46,7 @@ Intended intended(const Bench& bench, const std::vector<TypedAxis>& typed) {
     all.study.document.other.reset();
     for (const TypedAxis& axis : typed) {
         all.study.axes.push_back(axis.axis);
+        if (!axis.hasEffect) all.idle.push_back(axis.axis.key);
         if (!axis.problem.empty() && all.obstacle.empty())
             all.obstacle = fmt::format("The values of {} are not right yet.", axis.axis.key);
     }
@@ -78,6 +84,10 @@ void drawPlan(Bench& bench, const Intended& all) {
                 durationText(expectedSeconds(all.study, all.terms.frames, known, bench.points)));
         }
         text += ".";
+        if (!all.idle.empty()) {
+            text += fmt::format(" Counted too is what has no effect as it is: {}.",
+                                joinNames(all.idle));
+        }
         const bool isThere =
             bench.reference->photons > 0 && bench.reference->photons == all.terms.referencePhotons;
         if (all.terms.referencePhotons > 0) {
@@ -101,9 +111,8 @@ void drawPlan(Bench& bench, const Intended& all) {
 void drawTerms(Bench& bench) {
     PanelState& panels = bench.panels;
     ImGui::SetNextItemWidth(static_cast<float>(bench.px(90.0)));
-    ImGui::InputInt("frames each", &panels.studyFrames);
-    panels.studyFrames = std::clamp(panels.studyFrames, 1, 10000);
-    bench.map.control("study.frames", fmt::format("{}", panels.studyFrames));
+    static_cast<void>(
+        inputCount(bench, "frames each", panels.studyFrames, 1, 10000, "study.frames"));
     ImGui::BeginDisabled(!kHasReference);
     static_cast<void>(checkbox(bench, "with errors", panels.judgesStudies, "study.judged"));
     ImGui::EndDisabled();
@@ -122,24 +131,26 @@ void drawButtons(Bench& bench, const Intended& all) {
     ImGui::BeginDisabled(!obstacle.empty() || isRunning);
     if (button(bench, "Run", "study.run")) {
         bench.isPlaying = false;
-        bench.studies->start(all.study, all.terms, bench.registry, bench.panels.recordFolder, name);
+        bench.studies->start(all.study, all.terms, bench.registry, recordFolder(bench.panels),
+                             name);
     }
     ImGui::EndDisabled();
     tooltip(obstacle.empty()
                 ? fmt::format("Writes it into {} and runs it: 'kaustik experiment run'.",
-                              bench.panels.recordFolder)
+                              recordFolder(bench.panels).string())
                 : obstacle);
     ImGui::SameLine();
     ImGui::BeginDisabled(!obstacle.empty());
     if (button(bench, "Save", "study.save")) {
         try {
             const std::string file =
-                writeStudy(all.study, bench.registry, bench.panels.recordFolder, name, all.terms)
+                writeStudy(all.study, bench.registry, recordFolder(bench.panels), name, all.terms)
                     .front()
                     .string();
-            bench.notify(fmt::format("Wrote {}; 'kaustik experiment run {}' does it.", file, file));
+            bench.notify(fmt::format("Wrote {}; `kaustik experiment run {}` does it.", file,
+                                     shellWord(file)));
         } catch (const std::exception& error) {
-            bench.notify(error.what(), true);
+            bench.notifyUnwritten(error.what());
         }
     }
     ImGui::EndDisabled();
@@ -164,9 +175,15 @@ std::string progressText(const StudyState& study) {
     return text;
 }
 
+// Whether it could not even be written, into a folder that is no longer the one for recordings.
+bool isForgotten(const StudyState& study, const std::filesystem::path& folder) {
+    return !study.isRunning && study.experiment.empty() &&
+           study.folder != folder / study.folder.filename();
+}
+
 void drawProgress(Bench& bench) {
     const StudyState& study = *bench.study;
-    if (study.runs.empty()) return;
+    if (study.runs.empty() || isForgotten(study, recordFolder(bench.panels))) return;
     ImGui::Separator();
     const std::string text = progressText(study);
     const float share =
@@ -178,12 +195,10 @@ void drawProgress(Bench& bench) {
     const bool isCut = !study.isRunning && study.finished() < study.runs.size();
     std::string remark = study.problem;
     if (remark.empty() && isCut) {
-        remark =
-            fmt::format("Cancelled; 'kaustik experiment run {} --out {} --resume' does the rest.",
-                        study.experiment, study.folder.string());
+        remark = fmt::format("Cancelled; `{}` does the rest.", resumeCommand(study));
     } else if (remark.empty() && !study.isRunning) {
-        remark = fmt::format("Its results are in {}; 'kaustik experiment report {}' draws them.",
-                             study.folder.string(), study.folder.string());
+        remark = fmt::format("Its results are in {}; `kaustik experiment report {}` draws them.",
+                             study.folder.string(), shellWord(study.folder.string()));
     }
     if (remark.empty()) return;
     ImGui::PushTextWrapPos(0.0f);

@@ -154,6 +154,7 @@ std::vector<TypedAxis> drawStudyAxes(Bench& bench, const Variant& variant) {
     std::vector<TypedAxis> typed;
     for (std::size_t i = 0; i < axes.size();) {
         TypedAxis axis = typedAxis(axes[i].key, axes[i].text, variant, bench.registry);
+        axis.hasEffect = find(variables, axes[i].key) != nullptr;
         if (drawAxis(bench, variables, axes[i], axis)) {
             axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(i));
             continue;
