@@ -124,7 +124,7 @@ void Workbench::saveShown() {
             if (c == ' ' || c == '/') c = '_';
         }
     }
-    const fs::path folder = bench_.panels.recordFolder;
+    const fs::path folder = recordFolder(bench_.panels);
     notifyWriting((folder / images.front().name).string() + floatImageExtension());
     screenshot_ =
         std::async(std::launch::async, [folder, images = std::move(images)]() -> std::string {
@@ -147,7 +147,7 @@ void Workbench::saveScreenshot() {
     image.values = window_.readPixels(image.width, image.height);
     image.channels = 3;
     const fs::path file =
-        fs::path(bench_.panels.recordFolder) /
+        recordFolder(bench_.panels) /
         (recordingName(bench_.document.scene) + "-window" + displayImageExtension());
     // A large picture takes longer to compress than the window may be asleep.
     screenshot_ =
@@ -175,7 +175,7 @@ void Workbench::finishScreenshot() {
     }
     const std::string problem = screenshot_.get();
     if (!problem.empty()) {
-        bench_.notify(problem, true);
+        bench_.notifyUnwritten(problem);
     } else {
         bench_.notify(fmt::format("Wrote {}.", written_));
     }
