@@ -239,8 +239,10 @@ std::string ShownImage::valuesAt(glm::ivec2 pixel) const {
 std::string ShownImage::numbersAt(glm::ivec2 pixel) const {
     if (!contains(pixel)) return "";
     std::string text;
-    for (int c = 0; c < values->channels; ++c)
-        text += (c == 0 ? "" : "\n") + digitsOf(values->at(pixel.x, pixel.y, c), 4);
+    for (int c = 0; c < values->channels; ++c) {
+        if (c > 0) text += '\n';
+        text += digitsOf(values->at(pixel.x, pixel.y, c), 4);
+    }
     return text;
 }
 
