@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One setting as a TOML file states it: a parameter by any unique short form of its name, or one
 // of the keys of a run: scene (a name or a file next to the TOML file), technique,
-// as_published, size ("WIDTHxHEIGHT"), frames, warmup, seed, precise, time and time_step (seconds),
+// as_published, size ("WIDTHxHEIGHT"), frames, warmup, seed, precise, ledger, time and time_step
+// (seconds),
 // reference (none, auto or a file beside), reference_photons (of auto, at least), disable (a list
 // of passes).
 #pragma once

@@ -110,6 +110,12 @@ struct Bench {
             return !(withoutTime(bench.document) == said) || (!isBad && age > kGoodMessageTime);
         };
     }
+    // Of a number that was typed: it is said for a while.
+    void notifyTyped(std::string text) {
+        notify(std::move(text), true, [begin = std::chrono::steady_clock::now()](const Bench&) {
+            return std::chrono::steady_clock::now() - begin > kGoodMessageTime;
+        });
+    }
     // That something could not be written: of no interest once another folder is chosen.
     void notifyUnwritten(std::string text) {
         notify(std::move(text), true,

@@ -74,7 +74,7 @@ struct ViewedTexture {
     std::string checked;
     std::optional<measure::NotFinite> notFinite;
     std::shared_ptr<Histograms> histograms = std::make_shared<Histograms>();  // of the values
-    std::shared_ptr<const PictureOrigin> origin;                              // never null
+    std::shared_ptr<const PictureOrigin> origin;                              // null of thumbnails
 };
 
 // What was rendered of one of the two variants.

@@ -10,6 +10,11 @@ namespace kaustik::gui {
 
 namespace {
 
+// Among what is kept by channel.
+constexpr int kAllChannels = -1;
+constexpr int kLuminance = -2;
+constexpr int kLength = -3;
+
 // Of `count` channels from the first on.
 std::vector<float> finiteValues(const Image& image, std::size_t first, std::size_t count) {
     const auto channels = static_cast<std::size_t>(std::max(image.channels, 1));
@@ -77,7 +82,7 @@ Histogram histogramOf(const Image& image, Together together) {
 }
 
 const Histogram& Histograms::all(const Image& image) {
-    return kept(-1, [&] { return histogramOf(image); });
+    return kept(kAllChannels, [&] { return histogramOf(image); });
 }
 
 const Histogram& Histograms::channel(const Image& image, int channel) {
@@ -85,7 +90,7 @@ const Histogram& Histograms::channel(const Image& image, int channel) {
 }
 
 const Histogram& Histograms::together(const Image& image, Together together) {
-    return kept(together == Together::luminance ? -2 : -3,
+    return kept(together == Together::luminance ? kLuminance : kLength,
                 [&] { return histogramOf(image, together); });
 }
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 namespace kaustik::gui {
 namespace {
@@ -50,17 +49,6 @@ bool isFractionTyped() {
     return context.ActiveId != 0 && context.TempInputId == context.ActiveId;
 }
 
-const char* (*readClipboard)(void*) = nullptr;  // the window system's
-
-const char* clipboardWithPoints(void* window) {
-    const char* text = readClipboard(window);
-    if (text == nullptr || !isFractionTyped()) return text;
-    static std::string withPoints;
-    withPoints = text;
-    std::replace(withPoints.begin(), withPoints.end(), ',', '.');
-    return withPoints.c_str();
-}
-
 }  // namespace
 
 void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
@@ -81,10 +69,22 @@ void typePointForComma() {
     }
 }
 
-void pastePointForComma() {
+void Clipboard::use(GLFWwindow* window) {
+    window_ = window;
     ImGuiIO& io = ImGui::GetIO();
-    if (io.GetClipboardTextFn == &clipboardWithPoints) return;
-    readClipboard = std::exchange(io.GetClipboardTextFn, &clipboardWithPoints);
+    io.ClipboardUserData = this;
+    io.GetClipboardTextFn = [](void* self) { return static_cast<Clipboard*>(self)->read(); };
+    io.SetClipboardTextFn = [](void* self, const char* text) {
+        glfwSetClipboardString(static_cast<Clipboard*>(self)->window_, text);
+    };
+}
+
+const char* Clipboard::read() {
+    const char* text = glfwGetClipboardString(window_);
+    if (text == nullptr || !isFractionTyped()) return text;
+    withPoints_ = text;
+    std::replace(withPoints_.begin(), withPoints_.end(), ',', '.');
+    return withPoints_.c_str();
 }
 
 }  // namespace kaustik::gui

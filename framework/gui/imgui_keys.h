@@ -3,6 +3,8 @@
 // numbers of its own. Everything else names a key by its GLFW_KEY_….
 #pragma once
 
+#include <string>
+
 struct GLFWwindow;
 
 namespace kaustik::gui {
@@ -13,7 +15,17 @@ void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifier
 // While a slider's or a dragged number is typed, a comma of this frame becomes a point: Dear ImGui
 // would leave it out, and 0,05 would be 5. After ImGui::NewFrame().
 void typePointForComma();
-// The same, from now on, with what is pasted. After GLFW's side of Dear ImGui was set up.
-void pastePointForComma();
+// Dear ImGui's clipboard, with points in the place of commas where a fraction is pasted.
+class Clipboard {
+  public:
+    // After GLFW's side of Dear ImGui was set up; it must live as long.
+    void use(GLFWwindow* window);
+
+  private:
+    [[nodiscard]] const char* read();
+
+    GLFWwindow* window_ = nullptr;
+    std::string withPoints_;
+};
 
 }  // namespace kaustik::gui

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 namespace kaustik::gui {
 namespace {
@@ -16,6 +15,7 @@ namespace {
 // The field that is being typed into; one at a time.
 struct Typing {
     ImGuiID field = 0;
+    int frame = 0;  // in which it was drawn last
     std::string text;
 };
 thread_local Typing typing;
@@ -32,7 +32,7 @@ void takeBack(Bench& bench, const std::string& label, T& value, T minimum, T max
     // What is no number leaves nothing to be next to.
     const T taken = value >= minimum ? std::min(value, maximum) : minimum;
     if (taken == value) return;
-    bench.notify(takenSentence(label, minimum, maximum, fmt::format("{}", value), taken), true);
+    bench.notifyTyped(takenSentence(label, minimum, maximum, fmt::format("{}", value), taken));
     value = taken;
 }
 
@@ -43,9 +43,12 @@ TypedCount typedCount(const std::string& label, const std::string& text, int min
     const std::string typed = text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
     double number = 0.0;
     const auto [end, problem] = std::from_chars(typed.data(), typed.data() + typed.size(), number);
-    const bool isWhole = end == typed.data() + typed.size() && problem == std::errc() &&
-                         std::floor(number) == number;
-    const bool isTooLong = problem == std::errc::result_out_of_range;
+    const bool isAll = end == typed.data() + typed.size();
+    const bool isWhole = isAll && problem == std::errc() && std::floor(number) == number;
+    // Also of what is too small for a number, which says so by its exponent.
+    const bool isTooLong = isAll && problem == std::errc::result_out_of_range &&
+                           typed.find("e-") == std::string::npos &&
+                           typed.find("E-") == std::string::npos;
     if (!isWhole && !isTooLong) {
         return {std::nullopt, fmt::format("{} takes a whole number from {} to {}, not '{}'.", label,
                                           minimum, maximum, typed)};
@@ -57,22 +60,24 @@ TypedCount typedCount(const std::string& label, const std::string& text, int min
     return {taken, takenSentence(label, minimum, maximum, typed, taken)};
 }
 
-bool inputCount(Bench& bench, const char* label, int& value, int minimum, int maximum,
+void inputCount(Bench& bench, const char* label, int& value, int minimum, int maximum,
                 const std::string& name) {
     const ImGuiID field = ImGui::GetID(label);
+    // One that was not drawn for a frame has lost what was typed.
+    if (typing.field == field && ImGui::GetFrameCount() > typing.frame + 1) typing.field = 0;
     std::string text = typing.field == field ? typing.text : fmt::format("{}", value);
     ImGui::InputText(label, &text, ImGuiInputTextFlags_AutoSelectAll);
     bench.map.control(name, fmt::format("{}", value));
     if (ImGui::IsItemActive()) {
-        typing = {field, text};
-        return false;
+        typing = {field, ImGui::GetFrameCount(), text};
+        return;
     }
-    if (typing.field != field) return false;
+    if (typing.field != field) return;
     typing.field = 0;
-    if (text == fmt::format("{}", value)) return false;
+    if (text == fmt::format("{}", value)) return;
     const TypedCount typed = typedCount(label, text, minimum, maximum);
-    if (!typed.problem.empty()) bench.notify(typed.problem, true);
-    return typed.value && std::exchange(value, *typed.value) != *typed.value;
+    if (!typed.problem.empty()) bench.notifyTyped(typed.problem);
+    value = typed.value.value_or(value);
 }
 
 void keepWithin(Bench& bench, const std::string& label, float& value, float minimum,

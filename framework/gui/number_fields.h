@@ -10,10 +10,9 @@
 
 namespace kaustik::gui {
 
-// A field for a whole number, taken over when it is done with; true when it has changed. `name`: in
-// the screen map.
-[[nodiscard]] bool inputCount(Bench& bench, const char* label, int& value, int minimum, int maximum,
-                              const std::string& name);
+// A field for a whole number, taken over when it is done with. `name`: in the screen map.
+void inputCount(Bench& bench, const char* label, int& value, int minimum, int maximum,
+                const std::string& name);
 
 // After a slider or a dragged number that took what was typed: brings it back between its ends, and
 // says so.

@@ -32,6 +32,14 @@ std::vector<std::filesystem::path> shaderFolders(const Registry& registry) {
     return folders;
 }
 
+// What ends before its first file leaves nothing behind.
+void removeIfEmpty(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder, ignored) &&
+        std::filesystem::is_empty(folder, ignored))
+        std::filesystem::remove(folder, ignored);
+}
+
 }  // namespace
 
 RenderWorker::Device::Device(std::unique_ptr<gl::Context> c, const Registry& registry)
@@ -94,6 +102,7 @@ void RenderWorker::setRecording(Recording state) {
     {
         const std::lock_guard lock(mutex_);
         state.folder = std::move(recording_.folder);
+        if (!state.isActive) removeIfEmpty(state.folder);
         recording_ = std::move(state);
     }
     onUpdate_();

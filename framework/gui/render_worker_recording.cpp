@@ -2,8 +2,6 @@
 // The render worker's recordings: the report of a run, or the pictures of a sequence.
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -13,16 +11,6 @@
 
 namespace kaustik::gui {
 namespace fs = std::filesystem;
-namespace {
-
-// What ends before its first file leaves nothing behind.
-void removeIfEmpty(const fs::path& folder) {
-    std::error_code ignored;
-    if (fs::is_directory(folder, ignored) && fs::is_empty(folder, ignored))
-        fs::remove(folder, ignored);
-}
-
-}  // namespace
 
 void RenderWorker::writeRecording(Device& device, const RecordRequest& request) {
     try {
@@ -39,7 +27,6 @@ void RenderWorker::writeRecording(Device& device, const RecordRequest& request) 
         // A reference that is ended in the middle is an error for others.
         setRecording({false, cancelRecording_ ? "The report was cancelled." : error.what(), true});
     }
-    removeIfEmpty(request.folder);
     // The picture that is shown comes back by a frame of its own.
     device.framesDone = 0;
     device.toRender = 0;

@@ -40,6 +40,11 @@ ShownImage ofReference(const ShownRequest& requested, const ReferenceState& refe
     ShownImage image;
     image.resource = "caustic.irradiance";
     image.source = "reference";
+    if (reference.aim) {
+        PictureOrigin of{reference.aim->scene, {}, reference.aim->size};
+        of.variant.technique.clear();
+        image.origin = std::make_shared<const PictureOrigin>(std::move(of));
+    }
     image.content = contentOf(image.resource, {});
     image.content.channels.resize(3);
     image.place = describe(TextureSpace::eye);
@@ -55,8 +60,10 @@ ShownImage ofReference(const ShownRequest& requested, const ReferenceState& refe
     return image;
 }
 
+// `origin`: of the newest frame.
 ShownImage ofError(const ShownRequest& requested, const ReferenceState& reference,
-                   const ReferenceState::Judgement& judgement, std::uint64_t order) {
+                   const ReferenceState::Judgement& judgement, std::uint64_t order,
+                   const std::shared_ptr<const PictureOrigin>& origin) {
     ShownImage image;
     image.resource = kErrorResource;
     image.source = "error";
@@ -66,7 +73,11 @@ ShownImage ofError(const ShownRequest& requested, const ReferenceState& referenc
     image.content.channels = {{"error", "W/m²"}};
     image.place = describe(TextureSpace::eye);
     image.note = noteOf(reference);
-    if (judgement.order != order) image.age = "of a frame before this one";
+    if (judgement.order != order) {
+        image.age = "of a frame before this one";
+    } else {
+        image.origin = origin;
+    }
     image.values = judgement.error.get();
     image.owner = judgement.error;
     image.version = 2 * reference.version + 1;
@@ -170,7 +181,7 @@ std::optional<ShownImage> comparedImageOf(ComparedImage wanted, const ShownReque
                 return {};
             }
             return ofReference(requested, reference, &main);
-        case ComparedImage::error:
+        case ComparedImage::error: {
             if (!hasReference) {
                 problem = "there is no reference of this view to measure its error by yet";
                 return {};
@@ -182,7 +193,10 @@ std::optional<ShownImage> comparedImageOf(ComparedImage wanted, const ShownReque
             }
             if (judgement.order != result.order)
                 problem = "the error next to it is of a frame before and being measured";
-            return ofError(requested, reference, judgement, result.order);
+            const auto& viewed = result.variants[requested.seen()].viewed;
+            return ofError(requested, reference, judgement, result.order,
+                           viewed ? viewed->origin : nullptr);
+        }
     }
     return {};
 }

@@ -122,7 +122,7 @@ int singleChannel(const TextureContent& content, Channel channel) {
 const Histogram& histogramFor(Histograms& histograms, const Image& values,
                               const TextureContent& content, const Look& look) {
     if (const int channel = singleChannel(content, look.channel); channel >= 0)
-        return histograms.channel(values, std::min(channel, values.channels - 1));
+        return histograms.channel(values, std::clamp(channel, 0, std::max(values.channels - 1, 0)));
     // False colours are of one number a pixel.
     if (!look.isFalseColor && look.channel != Channel::luminance) return histograms.all(values);
     return histograms.together(
@@ -288,8 +288,9 @@ std::vector<std::pair<Channel, std::string>> ShownImage::channels() const {
 
 std::string ShownImage::identity() const {
     const auto text = [](const PictureOrigin& of) {
-        return fmt::format("{}, {}, {}×{} px", of.scene, settingsText(of.variant), of.size.width,
-                           of.size.height);
+        // The reference has no technique.
+        const std::string by = of.variant.technique.empty() ? "" : ", " + settingsText(of.variant);
+        return fmt::format("{}{}, {}×{} px", of.scene, by, of.size.width, of.size.height);
     };
     if (!origin) return "";
     return text(*origin) + (originOfSubtrahend ? "; less " + text(*originOfSubtrahend) : "");
@@ -300,12 +301,10 @@ std::vector<std::pair<std::string, std::string>> ShownImage::metadata() const {
         {"image", caption()}, {"quantity", content.quantity}, {"space", place}};
     const auto addOrigin = [&](const PictureOrigin& of, const std::string& prefix) {
         all.emplace_back(prefix + "scene", of.scene);
-        all.emplace_back(prefix + "technique", of.variant.technique);
         all.emplace_back(prefix + "size", fmt::format("{}x{}", of.size.width, of.size.height));
-        std::string settings;
-        for (const auto& [name, value] : of.variant.assignments)
-            settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", name, value);
-        if (!settings.empty()) all.emplace_back(prefix + "settings", settings);
+        if (of.variant.technique.empty()) return;
+        all.emplace_back(prefix + "technique", of.variant.technique);
+        all.emplace_back(prefix + "settings", settingsText(of.variant));
     };
     if (origin) addOrigin(*origin, "");
     if (originOfSubtrahend) addOrigin(*originOfSubtrahend, "subtrahend ");

@@ -55,7 +55,8 @@ struct ShownImage {
     std::shared_ptr<const void> owner;  // of the values, where the image has to keep them
     const Image* values = nullptr;      // never null
     std::uint64_t version = 0;          // of the values: no others have it
-    // What it was rendered by, and, of a difference, what was taken off; null of a reference.
+    // What it was rendered by, and, of a difference, what was taken off; a reference has no
+    // technique.
     std::shared_ptr<const PictureOrigin> origin;
     std::shared_ptr<const PictureOrigin> originOfSubtrahend;
     std::vector<ViewedTexture::Region> regions;

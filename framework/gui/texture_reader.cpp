@@ -149,6 +149,7 @@ ViewedTexture reducedTo(ViewedTexture viewed, int side) {
         }
     }
     viewed.values = std::move(few);
+    viewed.histograms = std::make_shared<Histograms>();
     viewed.regions.clear();
     return viewed;
 }

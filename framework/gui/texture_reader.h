@@ -17,8 +17,8 @@ namespace kaustik::gui {
 [[nodiscard]] ViewedTexture readViewed(const Renderer& renderer, const std::string& name,
                                        int layer);
 
-// The same with every n-th pixel alone, so that no side is longer than `side`; histograms stay
-// those of all.
+// The same with every n-th pixel alone, so that no side is longer than `side`, and histograms
+// of these.
 [[nodiscard]] ViewedTexture reducedTo(ViewedTexture viewed, int side);
 
 // The cross of six faces (+x, -x, +y, -y, +z, -z) of one size, 4 by 3 faces, seen from within; what

@@ -156,6 +156,8 @@ bool VariantRenderer::renderPreview(const Variant& variant, const params::Extent
         ++result_.previews;
         result_.isPreview = true;
         result_.viewed = view({});
+        result_.viewed->origin =
+            std::make_shared<const PictureOrigin>(PictureOrigin{scene_.name, variant, smaller});
         result_.outputs.reset();
         return true;
     });

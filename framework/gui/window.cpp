@@ -16,7 +16,6 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "framework/gui/imgui_keys.h"
 
 namespace kaustik::gui {
 namespace {
@@ -123,7 +122,7 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
     style.ScaleAllSizes(scale_);
     loadFont();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
-    pastePointForComma();
+    clipboard_.use(window_);
     // Instead of Dear ImGui's own, which takes keys by their place: Ctrl + A in a field is a short
     // cut, too.
     glfwSetKeyCallback(window_,

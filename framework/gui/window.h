@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/gui/imgui_keys.h"
 #include "framework/gui/keys.h"
 
 struct GLFWwindow;
@@ -73,6 +74,7 @@ class Window {
     std::string renderer_;
     std::vector<std::string> dropped_;
     KeyNames keyNames_;
+    Clipboard clipboard_;
     std::vector<KeyPress> keyPresses_;
     void noteKey(int place, int key, int action, int modifiers);
     struct Held {

@@ -139,7 +139,8 @@ void Workbench::run() {
     // The pass at hand may take seconds yet.
     keep();
     window_.hide();
-    if (const auto study = studyWorker_.state(); study->isRunning && !study->experiment.empty()) {
+    if (const auto study = studyWorker_.state();
+        study->isRunning && !study->isEnding && !study->experiment.empty()) {
         fmt::print(stderr,
                    "The study ends with the window, after {} of {} runs; this does the rest:\n"
                    "{}\n",

@@ -174,9 +174,12 @@ void Workbench::drawStatusBar() {
     if (bench_.message.empty()) {
         const Showing showing = showingOf(bench_.requested(), *bench_.result, *bench_.reference);
         if (showing.main) identity = showing.main->identity();
-        if (showing.compared && showing.compared->origin &&
-            showing.compared->origin != showing.main->origin)
-            identity += " and " + showing.compared->identity();
+        const std::string other = showing.compared ? showing.compared->identity() : "";
+        if (showing.compared && showing.compared->originOfSubtrahend) {
+            identity = other;
+        } else if (!other.empty() && other != identity) {
+            identity += " and " + other;
+        }
     }
     if (!value.empty()) {
         const float needed = ImGui::CalcTextSize(value.c_str()).x;

@@ -55,6 +55,11 @@ std::optional<bool> parseBool(std::string_view text) {
         fmt::format("{}: {} cannot be '{}'; it takes {}.", where, fullName, text, expected));
 }
 
+bool takes(const Field& field, int value) {
+    if (field.values.empty()) return value >= field.minimum && value <= field.maximum;
+    return std::find(field.values.begin(), field.values.end(), value) != field.values.end();
+}
+
 }  // namespace
 
 std::string Field::typeName() const {
@@ -110,6 +115,10 @@ Field& Field::when(bool hasEffect, const std::string& otherwise) {
 Field& Field::only(std::vector<int> theseValues) {
     assert(std::holds_alternative<int*>(target) && "only a whole number can be one of a list");
     values = std::move(theseValues);
+    assert(std::is_sorted(values.begin(), values.end()) && values.front() >= minimum &&
+           values.back() <= maximum && "a list is ascending and within the range");
+    assert(std::find(values.begin(), values.end(), *std::get<int*>(target)) != values.end() &&
+           "the default is of the list");
     return *this;
 }
 
@@ -118,51 +127,50 @@ void Field::set(std::string_view text, std::string_view fullName, std::string_vi
     const std::string number =
         fmt::format("number from {}{}{}", limits, unit.empty() ? "" : " ", unit);
     std::visit(
-        Overloaded{
-            [&](bool* v) {
-                const auto parsed = parseBool(text);
-                if (!parsed) refuse(where, fullName, text, "true or false");
-                *v = *parsed;
-            },
-            [&](int* v) {
-                const auto parsed = parseNumber<int>(text);
-                if (!parsed || *parsed < minimum || *parsed > maximum) {
-                    refuse(where, fullName, text, "a whole " + number);
-                }
-                const bool isListed = values.empty() || std::find(values.begin(), values.end(),
-                                                                  *parsed) != values.end();
-                if (!isListed)
-                    refuse(where, fullName, text, fmt::format("{}", fmt::join(values, ", ")));
-                *v = *parsed;
-            },
-            [&](float* v) {
-                const auto parsed = parseNumber<float>(text);
-                // Compared as floats, since the limits were declared as floats.
-                const bool inside = parsed && std::isfinite(*parsed) &&
-                                    *parsed >= static_cast<float>(minimum) &&
-                                    *parsed <= static_cast<float>(maximum);
-                if (!inside) refuse(where, fullName, text, "a " + number);
-                *v = *parsed;
-            },
-            [&](Extent* v) {
-                const auto parsed = parseExtent(text);
-                const auto inside = [&](int side) { return side >= minimum && side <= maximum; };
-                if (!parsed || !inside(parsed->width) || !inside(parsed->height)) {
-                    refuse(where, fullName, text, "WIDTHxHEIGHT, each from " + limits);
-                }
-                *v = *parsed;
-            },
-            [&](ChoiceRef v) {
-                for (std::size_t i = 0; i < choices.size(); ++i) {
-                    if (choices[i] == text) {
-                        *v.index = static_cast<int>(i);
-                        return;
-                    }
-                }
-                throw ConfigError(fmt::format("{}: {} cannot be '{}'{}; it takes {}.", where,
-                                              fullName, text, didYouMean(text, choices),
-                                              fmt::join(choices, ", ")));
-            }},
+        Overloaded{[&](bool* v) {
+                       const auto parsed = parseBool(text);
+                       if (!parsed) refuse(where, fullName, text, "true or false");
+                       *v = *parsed;
+                   },
+                   [&](int* v) {
+                       const auto parsed = parseNumber<int>(text);
+                       if (!parsed || !takes(*this, *parsed)) {
+                           refuse(where, fullName, text,
+                                  values.empty() ? "a whole " + number
+                                                 : fmt::format("{}", fmt::join(values, ", ")));
+                       }
+                       *v = *parsed;
+                   },
+                   [&](float* v) {
+                       const auto parsed = parseNumber<float>(text);
+                       // Compared as floats, since the limits were declared as floats.
+                       const bool inside = parsed && std::isfinite(*parsed) &&
+                                           *parsed >= static_cast<float>(minimum) &&
+                                           *parsed <= static_cast<float>(maximum);
+                       if (!inside) refuse(where, fullName, text, "a " + number);
+                       *v = *parsed;
+                   },
+                   [&](Extent* v) {
+                       const auto parsed = parseExtent(text);
+                       const auto inside = [&](int side) {
+                           return side >= minimum && side <= maximum;
+                       };
+                       if (!parsed || !inside(parsed->width) || !inside(parsed->height)) {
+                           refuse(where, fullName, text, "WIDTHxHEIGHT, each from " + limits);
+                       }
+                       *v = *parsed;
+                   },
+                   [&](ChoiceRef v) {
+                       for (std::size_t i = 0; i < choices.size(); ++i) {
+                           if (choices[i] == text) {
+                               *v.index = static_cast<int>(i);
+                               return;
+                           }
+                       }
+                       throw ConfigError(fmt::format("{}: {} cannot be '{}'{}; it takes {}.", where,
+                                                     fullName, text, didYouMean(text, choices),
+                                                     fmt::join(choices, ", ")));
+                   }},
         target);
 }
 

@@ -170,6 +170,7 @@ void Renderer::update(RenderSettings settings) {
         settings.technique.name != settings_.technique.name ||
         settings.technique.isAsPublished != settings_.technique.isAsPublished ||
         settings.disabledPasses != settings_.disabledPasses ||
+        settings.hasLedger != settings_.hasLedger ||
         settings.params.json() != settings_.params.json();
     if (asksForOthers) startedFor_.clear();
     settings_ = std::move(settings);

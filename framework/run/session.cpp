@@ -167,6 +167,7 @@ void Session::prepareMeasured(const MeasuredFrame& wanted) {
 void Session::restartRecord() {
     report::RunRecord now;
     now.timer = timer_.mode();
+    now.timing.hasLedger = settings_.hasLedger;
     now.seed = static_cast<long long>(settings_.seed);
     now.timeStepSeconds = record_.timeStepSeconds;
     now.startupMilliseconds = record_.startupMilliseconds;

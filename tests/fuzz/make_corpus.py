@@ -221,7 +221,7 @@ def experiments():
         yield re.sub(r'technique = ".*"', 'technique = "wyman2008"', text)
     yield ('name = "all"\ndescription = "d"\nrepeats = 2\n[base]\nscene = "smallest"\n'
            'technique = "wyman2008"\nsize = "32x24"\nframes = 1\nwarmup = 0\nseed = 3\n'
-           'precise = true\ntime = 0.5\nreference = "none"\ndisable = ["a.b"]\ntrace = "march"\n'
+           'precise = true\nledger = false\ntime = 0.5\nreference = "none"\ndisable = ["a.b"]\ntrace = "march"\n'
            '"trace.count" = 3\n"grid.photons" = "8x8"\n[[permute]]\n"trace.epsilon" = '
            '{from = 0.001, to = 0.1, factor = 10}\ntrace.fast = [true, false]\n[[permute]]\n'
            '"trace.count" = {from = 1, to = 8, step = 2}\ntime = {from = 0, to = 1, steps = 3}\n')

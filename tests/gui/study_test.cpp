@@ -138,6 +138,11 @@ TEST_F(StudyPanel, ThatEndsWithTheWindowSaysHowItGoesOn) {
     start(kept);
     open("Study");
     bench->click("study.run");
+    bench->waitFor("the experiment's file", [&](const json&) {
+        return std::filesystem::exists(folder / "out") &&
+               std::filesystem::directory_iterator(folder / "out") !=
+                   std::filesystem::directory_iterator();
+    });
     untilStudy("busy: 0 of 3 runs");
     bench->close();
     const Outcome outcome = bench->wait();
@@ -149,7 +154,7 @@ TEST_F(StudyPanel, ThatEndsWithTheWindowSaysHowItGoesOn) {
 TEST_F(StudyPanel, WhoseFolderIsRemovedMeanwhileHasNoResults) {
     json kept = savedStateWith(smallDocument());
     kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2 4"})});
-    kept["panels"]["study_frames"] = 2;
+    kept["panels"]["study_frames"] = 200;
     kept["panels"]["judged_studies"] = false;
     start(kept);
     open("Study");

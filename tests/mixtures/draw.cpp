@@ -29,6 +29,12 @@ double drawNumber(Random& random, const params::Range<double>& range, bool isWho
     return least * std::pow(range.maximum / least, random.uniform());
 }
 
+int nearestOf(const std::vector<int>& values, double number) {
+    return *std::min_element(values.begin(), values.end(), [&](int a, int b) {
+        return std::abs(a - number) < std::abs(b - number);
+    });
+}
+
 std::string drawValue(Random& random, const params::NamedField& parameter) {
     const params::Field& field = parameter.field;
     const std::string type = field.typeName();
@@ -38,6 +44,7 @@ std::string drawValue(Random& random, const params::NamedField& parameter) {
     const auto whole = [&] {
         double value = std::round(drawNumber(random, range, true));
         if (isPowerOfTwo(parameter.fullName)) value = std::exp2(std::round(std::log2(value)));
+        if (!field.values.empty()) value = nearestOf(field.values, value);
         return static_cast<long long>(value);
     };
     if (type == "int") return fmt::format("{}", whole());

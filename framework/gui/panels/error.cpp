@@ -56,9 +56,10 @@ void drawReference(Bench& bench) {
         ImGui::SliderFloat(kLabel, &millions, 1.0f, 10000.0f, "%.6g", ImGuiSliderFlags_Logarithmic);
     bench.map.control("error.photons", fmt::format("{:.6g}", millions));
     // Before it is done with, each sign that was typed is a number.
-    if (ImGui::IsItemDeactivatedAfterEdit()) {
+    if (!ImGui::IsAnyItemActive()) {
+        const float before = millions;
         keepWithin(bench, kLabel, millions, 1.0f, 10000.0f);
-        isChanged = true;
+        isChanged = isChanged || millions != before;
     }
     // A count of photons at any time, whatever is being typed.
     if (isChanged) bench.panels.referencePhotons = double(std::clamp(millions, 0.0f, 1e12f)) * 1e6;

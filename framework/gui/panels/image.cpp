@@ -99,10 +99,9 @@ void drawRangeThatIsUsed(Bench& bench, const ShownImage& image, const Look& look
     const ToneMapping used =
         mappingOf(look, image.content, image.histogram, image.mapping.isEncoded);
     if (used.low == look.low && used.high == look.high) return;
-    const char* why = look.low >= look.high ? "the lower end is not below the upper one"
-                      : look.scale == Scale::symmetric
-                          ? "as far to both sides of 0 as the upper end"
-                          : "a logarithm has no 0 and nothing below";
+    const char* why = look.scale == Scale::symmetric ? "as far to both sides of 0 as the upper end"
+                      : look.low >= look.high        ? "the lower end is not below the upper one"
+                                                     : "a logarithm has no 0 and nothing below";
     const std::string text =
         fmt::format("The colours go from {:.4g} to {:.4g}: {}.", used.low, used.high, why);
     ImGui::TextWrapped("%s", text.c_str());
@@ -133,8 +132,10 @@ void drawRange(Bench& bench, const ShownImage& image, Look& look) {
     ImGui::SetNextItemWidth(width);
     ImGui::DragFloat("range", &look.high, span * 0.005f, 0.0f, 0.0f, "%.4g");
     bench.map.control("image.range.high", fmt::format("{}", look.high));
-    keepWithin(bench, "range", look.low, -kLargestEnd, kLargestEnd);
-    keepWithin(bench, "range", look.high, -kLargestEnd, kLargestEnd);
+    if (!ImGui::IsAnyItemActive()) {
+        keepWithin(bench, "range", look.low, -kLargestEnd, kLargestEnd);
+        keepWithin(bench, "range", look.high, -kLargestEnd, kLargestEnd);
+    }
     drawRangeThatIsUsed(bench, image, look);
 }
 
@@ -156,11 +157,12 @@ void drawLook(Bench& bench, const ShownImage& image) {
     } else if (!image.mapping.isEncoded) {
         float stops = image.mapping.exposureStops;
         if (ImGui::SliderFloat("exposure (+ -)", &stops, -kMaxStops, kMaxStops, "%.1f stops")) {
-            keepWithin(bench, "exposure", stops, -kMaxStops, kMaxStops);
             look.exposureStops = stops;
             look.isExposureAutomatic = false;
         }
         bench.map.control("image.exposure", fmt::format("{}", stops));
+        if (!look.isExposureAutomatic && !ImGui::IsAnyItemActive())
+            keepWithin(bench, "exposure", look.exposureStops, -kMaxStops, kMaxStops);
         // Irradiance is hundreds of W/m²: as it is, all of it is white.
         static_cast<void>(
             checkbox(bench, "expose for the image", look.isExposureAutomatic, "image.fit"));
@@ -182,12 +184,13 @@ void drawHistogram(Bench& bench, const ShownImage& image) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y},
                        ImGui::GetColorU32(ImGuiCol_FrameBg));
-    const std::uint32_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
-    const float width = size.x / static_cast<float>(Histogram::kBins);
+    const std::uint32_t largest =
+        *std::max_element(histogram.counts.begin(), histogram.counts.end());
+    const float width = std::max(size.x, 1.0f) / static_cast<float>(Histogram::kBins);
     for (std::size_t i = 0; i < Histogram::kBins; ++i) {
         if (histogram.counts[i] == 0) continue;
         const float share = std::log2(1.0f + static_cast<float>(histogram.counts[i])) /
-                            std::log2(1.0f + static_cast<float>(most));
+                            std::log2(1.0f + static_cast<float>(largest));
         const float x = corner.x + width * static_cast<float>(i);
         draw.AddRectFilled({x, corner.y + size.y * (1.0f - share)}, {x + width, corner.y + size.y},
                            ImGui::GetColorU32(ImGuiCol_PlotHistogram));
@@ -284,6 +287,12 @@ void drawProbe(Bench& bench) {
 void drawImage(Bench& bench) {
     const VariantResult& result = bench.editedResult();
     const ViewedTexture* viewed = result.viewed ? &*result.viewed : nullptr;
+    // Of a kept variant that is looked at, its own.
+    std::shared_ptr<const ViewedTexture> kept;
+    if (const KeptVariant* flipped = bench.requested().flipped()) {
+        kept = flipped->texture(bench.view.resource);
+        viewed = kept.get();
+    }
     chooseVariant(bench, "image");
     ImGui::PushItemWidth(widthBeside("compared with"));
     drawChoiceOfTexture(bench);

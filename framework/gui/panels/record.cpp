@@ -77,7 +77,8 @@ void drawRecord(Bench& bench) {
     tooltip(std::filesystem::absolute(folder, ignored).lexically_normal().string());
     RenderWorker::Recording recording = bench.renderer->recording();
     // Why one folder was refused is of no interest once there is another one.
-    if (recording.hasFailed && recording.folder != folder / recording.folder.filename())
+    if (recording.hasFailed && recording.folder != folder / recording.folder.filename() &&
+        !std::filesystem::exists(recording.folder, ignored))
         recording.message.clear();
 
     ImGui::Spacing();
@@ -99,13 +100,13 @@ void drawRecord(Bench& bench) {
     drawReport(bench, folder, explain);
     ImGui::Spacing();
     ImGui::SetNextItemWidth(widthBeside("seconds between"));
-    static_cast<void>(inputCount(bench, "pictures", bench.panels.sequenceFrames, 1,
-                                 PanelState::kMaxSequenceFrames, "record.frames"));
+    inputCount(bench, "pictures", bench.panels.sequenceFrames, 1, PanelState::kMaxSequenceFrames,
+               "record.frames");
     constexpr const char* kStep = "seconds between";
     ImGui::SetNextItemWidth(widthBeside(kStep));
     ImGui::DragFloat(kStep, &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4g");
     // Before it is done with, each sign that was typed is a number.
-    if (ImGui::IsItemDeactivatedAfterEdit())
+    if (!ImGui::IsAnyItemActive())
         keepWithin(bench, kStep, bench.panels.sequenceStep, 0.0001f, 10.0f);
     bench.map.control("record.step", fmt::format("{}", bench.panels.sequenceStep));
     if (button(bench, "Image sequence", "record.sequence")) {

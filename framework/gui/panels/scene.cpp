@@ -100,7 +100,7 @@ void drawTime(Bench& bench, const SceneFacts& facts) {
         edits.timeSeconds = time;
     bench.map.control("scene.time", fmt::format("{}", time));
     ImGui::DragFloat("step, s", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4g");
-    if (ImGui::IsItemDeactivatedAfterEdit())
+    if (!ImGui::IsAnyItemActive())
         keepWithin(bench, "step, s", bench.panels.sequenceStep, 0.0001f, 10.0f);
     if (!facts.needs.animated) ImGui::TextDisabled("Nothing moves in this scene.");
 }

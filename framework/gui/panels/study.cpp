@@ -111,8 +111,7 @@ void drawPlan(Bench& bench, const Intended& all) {
 void drawTerms(Bench& bench) {
     PanelState& panels = bench.panels;
     ImGui::SetNextItemWidth(static_cast<float>(bench.px(90.0)));
-    static_cast<void>(
-        inputCount(bench, "frames each", panels.studyFrames, 1, 10000, "study.frames"));
+    inputCount(bench, "frames each", panels.studyFrames, 1, 10000, "study.frames");
     ImGui::BeginDisabled(!kHasReference);
     static_cast<void>(checkbox(bench, "with errors", panels.judgesStudies, "study.judged"));
     ImGui::EndDisabled();

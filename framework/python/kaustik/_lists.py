@@ -25,5 +25,5 @@ def nodes(technique: str = "", as_published: bool = False) -> List[Dict[str, Any
 
 def params(technique: str = "", as_published: bool = False) -> List[Dict[str, Any]]:
     """The parameters, or those of a technique's nodes with its own defaults, or its paper's: name, type, default,
-    unit, range (text; also minimum and maximum, or choices), description."""
+    unit, range (text; also minimum and maximum, with values where it takes these alone, or choices), description."""
     return _kaustik.params(technique, as_published)

@@ -101,7 +101,7 @@ class Renderer:
 
     def params(self) -> List[Dict[str, Any]]:
         """All parameters: name, type, value, default (text), unit, range (text; also minimum and
-        maximum, or choices), description, is_set."""
+        maximum, with values where it takes these alone, or choices), description, is_set."""
         found = self._session.params()
         for param in found:
             param["value"] = _value(param["value"])

@@ -15,7 +15,8 @@ TEST(TypedCounts, ThatFitAreTaken) {
 }
 
 TEST(TypedCounts, ThatAreNoWholeNumbersLeaveAllAsItWasAndSaySo) {
-    for (const char* text : {"1,5", "1.5", "abc", "", "nan", "1 2", "12px", "  "}) {
+    for (const char* text :
+         {"1,5", "1.5", "abc", "", "nan", "1 2", "12px", "  ", "1e-400", "1e400abc"}) {
         const TypedCount typed = typedCount("pictures", text, 1, 100);
         EXPECT_FALSE(typed.value) << text;
         EXPECT_NE(typed.problem.find("pictures takes a whole number from 1 to 100, not '"),

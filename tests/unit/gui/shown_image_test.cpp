@@ -203,14 +203,25 @@ TEST_F(ShownImageTest, WhatAPictureIsOfIsWhatItWasRenderedByAndNotWhatIsSetUp) {
     view.comparedWith = ComparedImage::reference;
     const Showing both = showing();
     EXPECT_EQ(both.main->identity(), "pool, planar, emit.photons=64x64, 4×2 px");
-    EXPECT_EQ(both.compared->identity(), "");
+    EXPECT_EQ(both.compared->identity(), "pool, 800×600 px");
     std::map<std::string, std::string> written;
     for (const auto& [key, value] : both.main->metadata())
         written[key] = value;
     EXPECT_EQ(written["technique"], "planar");
-    EXPECT_EQ(written["settings"], "emit.photons=64x64");
+    EXPECT_EQ(written["settings"], "planar, emit.photons=64x64");
     for (const auto& [key, value] : both.compared->metadata())
         EXPECT_NE(key, "technique") << value;
+    // Of a difference, both.
+    ShownImage difference = *both.main;
+    difference.originOfSubtrahend =
+        std::make_shared<const PictureOrigin>(PictureOrigin{"pool", Variant(), {4, 2}});
+    EXPECT_EQ(difference.identity(),
+              "pool, planar, emit.photons=64x64, 4×2 px; less pool, exact_rays, 4×2 px");
+    written.clear();
+    for (const auto& [key, value] : difference.metadata())
+        written[key] = value;
+    EXPECT_EQ(written["technique"], "planar");
+    EXPECT_EQ(written["subtrahend technique"], "exact_rays");
 }
 
 TEST_F(ShownImageTest, WholeNumbersAreWrittenWhole) {
