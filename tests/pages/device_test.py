@@ -24,7 +24,7 @@ class Device(unittest.TestCase):
         with OTHER.open(newline="") as stream:
             self.other = next(row for row in csv.DictReader(stream)
                               if (row["scene"], row["technique"], row["as_published"], row["emit.photons"]) == ("pool", "planar", "false", "256x256"))
-        done = {"scene": "pool", "technique": "planar", "emit.photons": "256x256", "refine.finest": "4096", "status": "done", "frame_ms.median": "7",
+        done = {"scene": "pool", "technique": "planar", "emit.photons": "256x256", "refine.finest": "4096", "ledger": "", "status": "done", "frame_ms.median": "7",
                 "frame_ms.p95": "8", "error.caustic_irradiance.rel_mse": str(2.0 * float(self.other["relMSE"])), "pass:trace.plane": "1.5",
                 "pass:emit.grid": "0.25", "pass:shadow.map": "", "pass:view.refraction": "3", "pass:compose.display": "0.5", "renderer": "a card"}
         refused = {"scene": "glass-bunny", "technique": "planar", "status": "failed"}
@@ -38,7 +38,18 @@ class Device(unittest.TestCase):
         with self.slim.open(newline="") as stream:
             row, = csv.DictReader(stream)
         self.assertEqual(row["slowest passes, ms"], "view.refraction 3.0; trace.plane 1.5; compose.display 0.5")
-        self.assertIn("| `pool` | `planar` | 7.0 | 8.0 | view.refraction 3.0; trace.plane 1.5; compose.display 0.5 |", call("times", self.slim).stdout)
+        self.assertIn("| `pool` | `planar` | 256² | 7.0 | 8.0 | view.refraction 3.0; trace.plane 1.5; compose.display 0.5 |", call("times", self.slim).stdout)
+
+    def test_says_which_frames_kept_no_ledger(self):
+        with self.runs.open(newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        rows[0]["ledger"] = "false"
+        with self.runs.open("w", newline="") as stream:
+            writer = csv.DictWriter(stream, list(rows[0]))
+            writer.writeheader()
+            writer.writerows(rows)
+        call("slim", self.runs, "--csv", self.slim)
+        self.assertIn("| `pool` | `planar` | 256², no ledger | 7.0", call("times", self.slim).stdout)
 
     def test_errors_stand_over_those_of_the_same_run_elsewhere(self):
         call("slim", self.runs, "--csv", self.slim)

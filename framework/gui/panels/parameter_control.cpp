@@ -19,6 +19,9 @@ template <class... Ts>
 struct Overloaded : Ts... {
     using Ts::operator()...;
 };
+// Clang 14 deduces nothing for an aggregate.
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
 
 // The number's field that is being typed into; one at a time.
 struct Typing {
