@@ -146,9 +146,8 @@ void Workbench::saveScreenshot() {
     Image image;
     image.values = window_.readPixels(image.width, image.height);
     image.channels = 3;
-    const fs::path file =
-        recordFolder(bench_.panels) /
-        (recordingName(bench_.document.scene) + "-window" + displayImageExtension());
+    const fs::path file = recordFolder(bench_.panels) / (recordingName(bench_.document.scene) +
+                                                         "-window" + displayImageExtension());
     // A large picture takes longer to compress than the window may be asleep.
     screenshot_ =
         std::async(std::launch::async, [file, picture = std::move(image)]() -> std::string {

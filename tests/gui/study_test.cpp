@@ -16,6 +16,16 @@ using nlohmann::json;
 class StudyPanel : public WorkbenchTest {
   protected:
     void vary(const std::string& key) { choose("study.vary", key); }
+    // Starts a study of three numbers of layers, without errors.
+    void runOfLayers(int frames) {
+        json kept = savedStateWith(smallDocument());
+        kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2 4"})});
+        kept["panels"]["study_frames"] = frames;
+        kept["panels"]["judged_studies"] = false;
+        start(kept);
+        open("Study");
+        bench->click("study.run");
+    }
     // Waits until the study's progress says that, or until it is over.
     void untilStudy(const std::string& part) {
         std::string said;
@@ -114,13 +124,7 @@ TEST_F(StudyPanel, RunsWhatIsVariedAndAClickOpensARun) {
 }
 
 TEST_F(StudyPanel, IsCancelledAndSaysHowItGoesOn) {
-    json kept = savedStateWith(smallDocument());
-    kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2 4"})});
-    kept["panels"]["study_frames"] = 4000;
-    kept["panels"]["judged_studies"] = false;
-    start(kept);
-    open("Study");
-    bench->click("study.run");
+    runOfLayers(4000);
     untilStudy("busy: 0 of 3 runs");
     EXPECT_TRUE(bench->has("study.cancel"));
     bench->click("study.cancel");
@@ -131,13 +135,7 @@ TEST_F(StudyPanel, IsCancelledAndSaysHowItGoesOn) {
 }
 
 TEST_F(StudyPanel, ThatEndsWithTheWindowSaysHowItGoesOn) {
-    json kept = savedStateWith(smallDocument());
-    kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2 4"})});
-    kept["panels"]["study_frames"] = 4000;
-    kept["panels"]["judged_studies"] = false;
-    start(kept);
-    open("Study");
-    bench->click("study.run");
+    runOfLayers(4000);
     bench->waitFor("the experiment's file", [&](const json&) {
         return std::filesystem::exists(folder / "out") &&
                std::filesystem::directory_iterator(folder / "out") !=
@@ -152,13 +150,7 @@ TEST_F(StudyPanel, ThatEndsWithTheWindowSaysHowItGoesOn) {
 }
 
 TEST_F(StudyPanel, WhoseFolderIsRemovedMeanwhileHasNoResults) {
-    json kept = savedStateWith(smallDocument());
-    kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2 4"})});
-    kept["panels"]["study_frames"] = 200;
-    kept["panels"]["judged_studies"] = false;
-    start(kept);
-    open("Study");
-    bench->click("study.run");
+    runOfLayers(200);
     untilStudy("busy: 1 of 3 runs");
     fs::path results = experiment();
     results.replace_extension();
