@@ -14,17 +14,10 @@
 #include "framework/core/error.h"
 #include "framework/core/names.h"
 #include "framework/core/number_text.h"
+#include "framework/core/overloaded.h"
 
 namespace kaustik::params {
 namespace {
-
-template <class... Cases>
-struct Overloaded : Cases... {
-    using Cases::operator()...;
-};
-// Clang 14 deduces nothing for an aggregate.
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
 
 template <class T>
 std::optional<T> parseNumber(std::string_view text) {

@@ -60,7 +60,7 @@ TEST_F(ProbedPhotons, AreAsManyAsLandedNearThePixel) {
     for (const auto& [x, y] : {std::pair{32, 25}, std::pair{26, 30}, std::pair{37, 20}}) {
         EXPECT_EQ(probed(x, y), landedWithin(1.0, x, y)) << x << ", " << y;
     }
-    EXPECT_EQ(probed(2, 2), 0) << "beside the scene";
+    EXPECT_EQ(probed(2, 2), 0) << "off the scene";
     bench->typeInto("image.probe_radius", "4", Entry::controlClick);
     const long many = probed(32, 25);
     EXPECT_EQ(many, landedWithin(4.0, 32, 25));

@@ -53,7 +53,7 @@ TEST_F(ScenePanel, ACommaIsANumbersPointAndWhatIsTypedIsNeverInfinite) {
     EXPECT_EQ(bench->value("parameters.search"), "0,05");
 }
 
-TEST_F(ScenePanel, ACommaThatIsPastedIsANumbersPointToo) {
+TEST_F(ScenePanel, APastedDecimalCommaIsAPoint) {
     start();
     open("Scene");
     bench->typeInto("parameters.search", "0,75", Entry::click, "ctrl+a");

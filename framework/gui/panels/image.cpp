@@ -95,7 +95,7 @@ void drawChoiceOfTexture(Bench& bench) {
 constexpr float kLargestEnd = 1e30f;
 
 // Where a scale cannot have the ends that were typed.
-void drawRangeThatIsUsed(Bench& bench, const ShownImage& image, const Look& look) {
+void drawEffectiveRange(Bench& bench, const ShownImage& image, const Look& look) {
     const ToneMapping used =
         mappingOf(look, image.content, image.histogram, image.mapping.isEncoded);
     if (used.low == look.low && used.high == look.high) return;
@@ -136,7 +136,7 @@ void drawRange(Bench& bench, const ShownImage& image, Look& look) {
         keepWithin(bench, "range", look.low, -kLargestEnd, kLargestEnd);
         keepWithin(bench, "range", look.high, -kLargestEnd, kLargestEnd);
     }
-    drawRangeThatIsUsed(bench, image, look);
+    drawEffectiveRange(bench, image, look);
 }
 
 // How the image on the screen becomes colours: each has a look of its own.

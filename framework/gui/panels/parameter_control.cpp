@@ -9,19 +9,12 @@
 #include <limits>
 #include <variant>
 
+#include "framework/core/overloaded.h"
 #include "framework/gui/typed_value.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
 namespace {
-
-template <class... Ts>
-struct Overloaded : Ts... {
-    using Ts::operator()...;
-};
-// Clang 14 deduces nothing for an aggregate.
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 // The number's field that is being typed into; one at a time.
 struct Typing {
