@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     parts.addHardCases = &kaustik::registerHardCases;
 #ifdef KAUSTIK_HAS_GUI
     parts.gui = [](const kaustik::app::GuiOptions& options, const kaustik::Registry& registry) {
-        kaustik::gui::guiCommand(options.scene, options.describe, registry);
+        kaustik::gui::guiCommand({options.scene, options.describe, options.unattended}, registry);
     };
 #endif
     return kaustik::app::runCommandLine(argc, argv, kaustik::registerAll(), parts);

@@ -203,6 +203,7 @@ struct ExperimentOptions {
 struct GuiOptions {
     std::string scene;     // "": as it was left, or the default
     std::string describe;  // file that always says what is on the screen (gui/screen_map.h)
+    bool unattended = false;
 };
 
 }  // namespace kaustik::app

@@ -203,6 +203,11 @@ Subcommand addGui(CLI::App& app, const Registry& registry, GuiCommand gui) {
                        "A name from 'list scenes', a .toml, .gltf or .glb; else as it was left");
     command.add_option("--describe", options->describe,
                        "A file that always says what is on the screen, as JSON, for tests");
+    command
+        .add_flag("--unattended", options->unattended,
+                  "With --describe, for tests: draws a frame of the window only when no other "
+                  "follows at once, and renders as urgently")
+        ->needs("--describe");
     addDeviceOption(command);
     return {&command, [options, &registry, gui] {
                 if (gui == nullptr) {

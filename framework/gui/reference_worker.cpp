@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/reference_worker.h"
+#include "framework/gui/priority.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -181,7 +180,7 @@ struct ReferenceWorker::Loaded {
 };
 
 void ReferenceWorker::run() {
-    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19));
+    lowerPriority(kBackgroundPriority);
     std::unique_ptr<Loaded> loaded;
     for (;;) {
         bool hasNewAim = false;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/render_worker.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/gui/priority.h"
 #include "framework/gui/render_worker_device.h"
 
 namespace kaustik::gui {
@@ -19,12 +17,6 @@ using namespace std::chrono_literals;
 constexpr auto kIdle = 300ms;  // between looks at the shaders' files
 // After so many frames the ledger and the photons are looked at, also where frames go on for ever.
 constexpr int kFramesBeforeExtras = 8;
-
-// On a software rasteriser the frame and the window want the same cores; the window goes first.
-// Threads that this one starts, the rasteriser's among them, inherit it.
-void lowerPriority() {
-    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 15));
-}
 
 std::vector<std::filesystem::path> shaderFolders(const Registry& registry) {
     std::vector<std::filesystem::path> folders = registry.shaderFolders();
@@ -134,7 +126,7 @@ VariantRenderer::ShouldContinue RenderWorker::watch(const Device& device, const 
 }
 
 void RenderWorker::run() {
-    lowerPriority();
+    lowerPriority(kFramePriority);
     try {
         Device device(gl::Context::createHeadless(), registry_);
         working_.device = device.context->info();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/thumbnails.h"
+#include "framework/gui/priority.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -110,8 +109,7 @@ void ThumbnailWorker::set(const ThumbnailSubject& subject, Thumbnail thumbnail) 
 }
 
 void ThumbnailWorker::run() {
-    // What it starts inherits it: the frame at hand and the window go first.
-    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19));
+    lowerPriority(kBackgroundPriority);
     for (;;) {
         std::optional<ThumbnailSubject> next;
         const auto find = [&] {

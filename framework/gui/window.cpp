@@ -103,6 +103,9 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
         self.dropped_.assign(paths, paths + count);
         self.hadInput_ = true;
     });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int, int, int) {
+        ++static_cast<Window*>(glfwGetWindowUserPointer(window))->strokes_;
+    });
 
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = iniFile_.c_str();
@@ -197,6 +200,7 @@ void Window::beginFrame(double waitSeconds) {
 void Window::noteKey(int place, int key, int action, int modifiers) {
     constexpr double kShortestTap = 1.0 / 60.0;
     hadInput_ = true;
+    if (action != GLFW_REPEAT) ++strokes_;
     Held& held = held_[place];
     if (action == GLFW_PRESS) {
         keyPresses_.push_back({key, modifiers});

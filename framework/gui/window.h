@@ -62,6 +62,8 @@ class Window {
     // What was drawn and is not shown yet, 8 bits RGB, top row first: what is seen is not readable
     // on every platform.
     [[nodiscard]] std::vector<float> readPixels(int& width, int& height) const;
+    // How often keys and buttons of the mouse have gone down or up.
+    [[nodiscard]] long strokes() const { return strokes_; }
     // Whether anything has happened that needs more than one frame to settle.
     [[nodiscard]] bool hadInput() const { return hadInput_; }
     [[nodiscard]] const std::string& renderer() const { return renderer_; }
@@ -84,6 +86,7 @@ class Window {
     std::map<int, Held> held_;  // by place
     float scale_ = 1.0f;
     bool hadInput_ = true;
+    long strokes_ = 0;
     bool isRobust_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -65,6 +66,7 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
     bench_.thumbnails = &thumbnailWorker_;
     history_ = {bench_.document};
     rendererBegin_ = Clock::now();
+    isUnattended_ = options.isUnattended;
 }
 
 Workbench::~Workbench() {
@@ -106,8 +108,9 @@ void Workbench::run() {
                               io.MouseWheel != 0.0f || ImGui::IsAnyMouseDown() ||
                               ImGui::IsAnyItemActive() || window_.hadInput() || bench_.isTurning ||
                               Clock::now() - turnedAt_ < std::chrono::milliseconds(500);
-        // Dear ImGui needs a few frames to answer what it was told.
-        if (hasInput) framesToDraw_ = 3;
+        // Dear ImGui needs a few frames to answer what it was told; who reads the description, some
+        // after these to know that it has.
+        if (hasInput) framesToDraw_ = map_.isOn() ? 8 : 3;
         if (run::isInterrupted()) window_.close();
         pollWorkers();
         takeDropped();
@@ -126,9 +129,7 @@ void Workbench::run() {
         pollPairs();
         saveShown();
         describe();
-        window_.drawFrame();
-        saveScreenshot();
-        window_.endFrame();
+        drawPixels();
         map_.endFrame();
         finishScreenshot();
         saveRegularly();
@@ -148,15 +149,31 @@ void Workbench::run() {
     }
 }
 
+void Workbench::drawPixels() {
+    constexpr auto longestPause = std::chrono::milliseconds(250);
+    const bool isAnotherToCome = framesToDraw_ > 0 && !bench_.wantsScreenshot;
+    if (isUnattended_ && isAnotherToCome && Clock::now() - drawnAt_ < longestPause) {
+        ImGui::EndFrame();
+        return;
+    }
+    window_.drawFrame();
+    saveScreenshot();
+    window_.endFrame();
+    drawnAt_ = Clock::now();
+    drawnFrame_ = ImGui::GetFrameCount();
+}
+
 // How long the window may sleep, s: while the hand is at work not at all.
 double Workbench::patience() const {
-    // Who reads the description waits for it.
-    if (framesToDraw_ > 0 || bench_.isPlaying || map_.isOn()) {
+    if (framesToDraw_ > 0 || bench_.isPlaying) {
+        if (isUnattended_) return 0.0;
         const double since = std::chrono::duration<double>(Clock::now() - frameBegin_).count();
         return std::max(1.0 / 60.0 - since, 0.0);
     }
-    return bench_.renderer->progress().isBusy || referenceWorker_.progress().isComputing ? 0.1
-                                                                                         : 0.25;
+    // Who reads the description waits for it.
+    const bool isWatched = map_.isOn() || bench_.renderer->progress().isBusy ||
+                           referenceWorker_.progress().isComputing;
+    return isWatched ? 0.1 : 0.25;
 }
 
 // Results have the letters of the document: where A and B have just changed places, before the
@@ -337,6 +354,10 @@ void Workbench::describe() {
     map_.status("device", result.device.renderer);
     map_.status("window_device", window_.renderer());
     map_.status("interface_ms", interfaceMs_);
+    map_.status("drawn_frame", drawnFrame_);
+    map_.status("strokes", window_.strokes());
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (ImGui::IsMousePosValid(&mouse)) map_.status("mouse", std::array{mouse.x, mouse.y});
     map_.status("frame_ms", first.frameMs);
     map_.status("document", toJson(bench_.document));
 }

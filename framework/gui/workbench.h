@@ -11,13 +11,9 @@
 #include "framework/gui/bench.h"
 #include "framework/gui/settings_file.h"
 #include "framework/gui/window.h"
+#include "framework/gui/workbench_options.h"
 
 namespace kaustik::gui {
-
-struct WorkbenchOptions {
-    std::string scene;               // "": as it was left, or the default scene
-    std::filesystem::path describe;  // file of the screen map; "" for none
-};
 
 class Workbench {
   public:
@@ -35,6 +31,7 @@ class Workbench {
     using Clock = std::chrono::steady_clock;
     void keep();
     void saveRegularly();
+    void drawPixels();
     [[nodiscard]] std::shared_ptr<const FrameResult> labelled(
         std::shared_ptr<const FrameResult> latest);
     void pollWorkers();
@@ -88,7 +85,10 @@ class Workbench {
     std::size_t historyPlace_ = 0;
     std::string savedText_;
     Clock::time_point savedAt_;
+    bool isUnattended_ = false;
     int framesToDraw_ = 3;
+    Clock::time_point drawnAt_;
+    int drawnFrame_ = 0;  // the newest whose pixels can be seen
     std::future<std::shared_ptr<const ImageDifference>> difference_;  // being computed
     std::future<std::shared_ptr<const Table>> pairs_;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing

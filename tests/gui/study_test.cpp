@@ -150,7 +150,7 @@ TEST_F(StudyPanel, ThatEndsWithTheWindowSaysHowItGoesOn) {
 }
 
 TEST_F(StudyPanel, WhoseFolderIsRemovedMeanwhileHasNoResults) {
-    runOfLayers(200);
+    runOfLayers(60);
     untilStudy("busy: 1 of 3 runs");
     fs::path results = experiment();
     results.replace_extension();

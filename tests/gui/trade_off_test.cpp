@@ -56,18 +56,18 @@ TEST_F(TradeOffPanel, EachSettledSettingIsAPointAndAClickBringsItBack) {
 // that the noise of these two's times is no distance.
 TEST_F(TradeOffPanel, PointsThatLieOnEachOtherAreListedTogether) {
     json slower = smallDocument();
-    slower["variant"]["set"]["emit.photons"] = "256x256";
+    slower["variant"]["set"]["emit.photons"] = "128x128";
     start(savedStateWith(slower));
     open("Error");
     bench->click("error.compute");
     open("Trade-off");
     untilPoints(1);
     open("Parameters");
-    bench->typeInto("parameter.emit.photons", "1024", Entry::click, "Return", {0.2, 0.5});
+    bench->typeInto("parameter.emit.photons", "512", Entry::click, "Return", {0.2, 0.5});
     open("Trade-off");
     untilPoints(2);
     open("Parameters");
-    bench->typeInto("parameter.emit.photons", "1024", Entry::click, "Return", {0.7, 0.5});
+    bench->typeInto("parameter.emit.photons", "512", Entry::click, "Return", {0.7, 0.5});
     open("Trade-off");
     untilPoints(3);
     bench->click("trade_off.row.1");

@@ -85,7 +85,7 @@ void WorkbenchTest::untilSettled() {
         return status.at("settled") == true && status.at("rendered_order") == status.at("order");
     });
     // The frame that said so is not on the desktop yet.
-    bench->untilTaken();
+    bench->untilDrawn();
 }
 
 void WorkbenchTest::untilRecorded() {
@@ -131,6 +131,7 @@ Image WorkbenchTest::seenPicture() {
     const auto y0 = static_cast<int>(std::ceil(std::max(area.y, whole.y)));
     const auto x1 = static_cast<int>(std::floor(std::min(area.x + area.w, whole.x + whole.w)));
     const auto y1 = static_cast<int>(std::floor(std::min(area.y + area.h, whole.y + whole.h)));
+    bench->untilDrawn();
     const Image all = desktop.screenshot();
     Image part(x1 - x0, y1 - y0, 3);
     for (int y = y0; y < y1; ++y) {

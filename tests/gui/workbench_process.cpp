@@ -34,7 +34,7 @@ fs::path withoutFile(const fs::path& file) {
 std::vector<std::string> withGui(const std::vector<std::string>& arguments, const fs::path& file) {
     std::vector<std::string> all = {"gui"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    all.insert(all.end(), {"--describe", file.string()});
+    all.insert(all.end(), {"--describe", file.string(), "--unattended"});
     return all;
 }
 
@@ -47,6 +47,11 @@ Conditions conditionsIn(const fs::path& folder, const std::string& display,
                                    {"XDG_CONFIG_HOME", folder / "config"},
                                    {"KAUSTIK_CACHE", folder / "cache"}});
     return conditions;
+}
+
+long keysOf(const std::string& chord) {
+    // "ctrl++" is a chord with the key "+".
+    return 1 + std::count(chord.begin(), chord.end() - 1, '+');
 }
 
 std::vector<std::string> nearestNames(const std::string& name, std::vector<std::string> names) {
@@ -131,32 +136,44 @@ void WorkbenchProcess::waitFor(const std::string& what,
 }
 
 void WorkbenchProcess::hover(const std::string& control, Spot spot) {
-    const Place place = placeOf(control, spot);
-    desktop_.moveTo(place.x, place.y);
-    untilTaken();
+    moveTo(placeOf(control, spot));
+}
+
+void WorkbenchProcess::moveTo(Place place) {
+    const Place origin = desktop_.originOf(window());
+    desktop_.moveTo(place.x, place.y, 2);
+    untilTaken([&](const Json& screen) {
+        const Json& status = screen.at("status");
+        return status.contains("mouse") && status.at("mouse").at(0) == place.x - origin.x &&
+               status.at("mouse").at(1) == place.y - origin.y;
+    });
 }
 
 // Dear ImGui before 1.87 asks for the state of buttons and keys once a frame, so that one which is
 // released too soon was never pressed.
 void WorkbenchProcess::press(unsigned button) {
+    const long before = strokes();
     desktop_.press(button);
-    untilTaken();
+    untilStrokesTaken(before, 1);
 }
 
 void WorkbenchProcess::release(unsigned button) {
+    const long before = strokes();
     desktop_.release(button);
-    untilTaken();
+    untilStrokesTaken(before, 1);
 }
 
 void WorkbenchProcess::keyDown(const std::string& chord) {
     static_cast<void>(window());
+    const long before = strokes();
     desktop_.keyDown(chord);
-    untilTaken();
+    untilStrokesTaken(before, keysOf(chord));
 }
 
 void WorkbenchProcess::keyUp(const std::string& chord) {
+    const long before = strokes();
     desktop_.keyUp(chord);
-    untilTaken();
+    untilStrokesTaken(before, keysOf(chord));
 }
 
 void WorkbenchProcess::click(const std::string& control, unsigned button, Spot spot) {
@@ -257,6 +274,7 @@ void WorkbenchProcess::kill() {
 }
 
 fs::path WorkbenchProcess::keepScreenshot(const std::string& name) {
+    untilDrawn();
     return desktop_.keepScreenshot(name);
 }
 
@@ -280,17 +298,48 @@ long WorkbenchProcess::frame() const {
     return latest ? latest->at("frame").get<long>() : -1;
 }
 
+long WorkbenchProcess::strokes() const {
+    const std::optional<Json> latest = description();
+    return latest ? latest->at("status").at("strokes").get<long>() : 0;
+}
+
+void WorkbenchProcess::untilStrokesTaken(long before, long count) {
+    untilTaken([&](const Json& screen) {
+        return screen.at("status").at("strokes").get<long>() >= before + count;
+    });
+}
+
 void WorkbenchProcess::untilTaken() {
-    // The first description after the input may be of a frame that had begun before it, and an X
-    // server that has pictures of the workbench's to put up first keeps its events back for so
-    // long: seen for a frame, on a busy machine. The frame after has taken the input, and the next
-    // shows what came of it.
-    constexpr long framesAfter = 4;
+    untilTaken([](const Json&) { return false; });
+}
+
+void WorkbenchProcess::untilTaken(const std::function<bool(const Json&)>& isTaken) {
+    // A window that input opens is in sight two frames later.
+    constexpr long framesToShow = 2;
+    // Where nothing says that it was taken: the first description after the input may be of a frame
+    // that had begun before it, and an X server that has pictures of the workbench's to put up
+    // first keeps its events back for so long: seen for a frame, on a busy machine. The frame after
+    // has taken the input.
+    constexpr long framesToTake = 2;
     const long before = frame();
-    long first = before;
-    if (!poll("a next frame", [&] { return (first = frame()) > before; })) return;
-    static_cast<void>(
-        poll("the frames after an input", [&] { return frame() >= first + framesAfter; }));
+    std::optional<long> shown;
+    std::optional<long> shownAtTheLatest;
+    static_cast<void>(poll("the frames after an input", [&] {
+        const std::optional<Json> latest = description();
+        if (!latest) return false;
+        const long now = latest->at("frame").get<long>();
+        if (!shownAtTheLatest && now > before) shownAtTheLatest = now + framesToTake + framesToShow;
+        if (!shown && isTaken(*latest)) shown = now + framesToShow;
+        return (shown && now >= *shown) || (shownAtTheLatest && now >= *shownAtTheLatest);
+    }));
+}
+
+void WorkbenchProcess::untilDrawn() {
+    const long described = frame();
+    static_cast<void>(poll("the pixels of a frame", [&] {
+        const std::optional<Json> latest = description();
+        return latest && latest->at("status").at("drawn_frame").get<long>() >= described;
+    }));
 }
 
 bool WorkbenchProcess::poll(const std::string& what, const std::function<bool()>& isSo) const {

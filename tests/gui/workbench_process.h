@@ -88,8 +88,10 @@ class WorkbenchProcess {
     // Ends it at once, as a crash does.
     void kill();
 
-    // Returns once everything that the workbench had been told by now is on the desktop.
+    // Returns once everything that the workbench had been told by now is in its description.
     void untilTaken();
+    // Returns once all that is described by now is on the desktop.
+    void untilDrawn();
     std::filesystem::path keepScreenshot(const std::string& name);
 
   private:
@@ -98,6 +100,12 @@ class WorkbenchProcess {
     [[nodiscard]] long frame() const;  // of the latest description, -1 before the first
     [[nodiscard]] WindowId window();
     [[nodiscard]] Place placeOf(const std::string& control, Spot spot = {});  // on the desktop
+    // Of what has just been sent, `isTaken` says of a description whether it was of a frame that
+    // had it.
+    void untilTaken(const std::function<bool(const Json&)>& isTaken);
+    void untilStrokesTaken(long before, long count);
+    [[nodiscard]] long strokes() const;  // that the latest description says to be taken
+    void moveTo(Place place);
     void press(unsigned button);
     void release(unsigned button);
     // Polls until `isSo`, or until it has ended (false). Throws at the limit.
