@@ -73,7 +73,7 @@ class Connections {
                 if (!(length > 0.0) ||
                     !overlap({glm::min(from, to), glm::max(from, to), false}, box))
                     continue;
-                if (rays.first(from, (to - from) / length, length)) return true;
+                if (rays.isBlocked(from, (to - from) / length, length)) return true;
             }
         }
         return false;

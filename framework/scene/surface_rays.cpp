@@ -2,6 +2,7 @@
 #include "framework/scene/surface_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "framework/scene/triangles.h"
@@ -11,16 +12,17 @@ namespace {
 
 constexpr std::size_t kTrianglesOfLeaf = 4;
 
-// Where a ray enters the box, m; beyond `farthest` where it does not.
-double distanceToBox(const glm::dvec3& minimum, const glm::dvec3& maximum, const glm::dvec3& origin,
-                     const glm::dvec3& inverse, double farthest) {
+// Where a ray enters the box, m, up to `farthest`.
+std::optional<double> distanceToBox(const glm::dvec3& minimum, const glm::dvec3& maximum,
+                                    const glm::dvec3& origin, const glm::dvec3& inverse,
+                                    double farthest) {
     const glm::dvec3 one = (minimum - origin) * inverse;
     const glm::dvec3 other = (maximum - origin) * inverse;
     const glm::dvec3 near = glm::min(one, other);
     const glm::dvec3 far = glm::max(one, other);
     const double begin = std::max({near.x, near.y, near.z, 0.0});
     const double end = std::min({far.x, far.y, far.z, farthest});
-    return begin <= end ? begin : std::numeric_limits<double>::infinity();
+    return begin <= end ? std::optional(begin) : std::nullopt;
 }
 
 }  // namespace
@@ -82,27 +84,41 @@ void SurfaceRays::addNode(std::size_t begin, std::size_t end) {
     addNode(middle, end);
 }
 
-std::optional<SurfaceRays::Hit> SurfaceRays::first(const glm::dvec3& origin,
-                                                   const glm::dvec3& direction,
-                                                   double farthest) const {
+// Shortens `farthest` to what is nearest; where any will do, to what is found first.
+std::optional<std::size_t> SurfaceRays::hit(const glm::dvec3& origin, const glm::dvec3& direction,
+                                            double& farthest, bool isAnyEnough) const {
+    if (nodes_.empty()) return {};
     // Finite: on a face of a box nothing times infinity would be no number.
     constexpr double kNoSlope = 1e-200;
     const glm::dvec3 inverse =
         1.0 / glm::mix(direction, glm::dvec3(kNoSlope), glm::equal(direction, glm::dvec3(0.0)));
     // A ray through the edge between two triangles hits one at least.
     constexpr double kEdge = 1e-12;
-    std::optional<Hit> nearest;
-    std::vector<std::uint32_t> open;
-    if (!nodes_.empty()) open.push_back(0);
-    while (!open.empty()) {
-        const std::uint32_t index = open.back();
+    // Halves of halves: a tree of 2^32 triangles is 31 levels deep, each of which leaves one node.
+    struct Open {
+        std::uint32_t node = 0;
+        double distance = 0.0;
+    };
+    std::array<Open, 33> open;
+    std::size_t count = 0;
+    const auto enter = [&](std::uint32_t index) {
         const Node& node = nodes_[index];
-        open.pop_back();
-        if (distanceToBox(node.minimum, node.maximum, origin, inverse, farthest) > farthest)
-            continue;
+        const auto distance = distanceToBox(node.minimum, node.maximum, origin, inverse, farthest);
+        if (distance) open[count++] = {index, *distance};
+        return distance.has_value();
+    };
+    enter(0);
+    std::optional<std::size_t> found;
+    while (count > 0) {
+        const Open next = open[--count];
+        if (next.distance > farthest) continue;
+        const Node& node = nodes_[next.node];
         if (node.count == 0) {
-            open.push_back(node.first);
-            open.push_back(index + 1);
+            const bool isFirst = enter(next.node + 1);
+            const bool isSecond = enter(node.first);
+            // The nearer one is taken next.
+            if (isFirst && isSecond && open[count - 1].distance > open[count - 2].distance)
+                std::swap(open[count - 1], open[count - 2]);
             continue;
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -119,12 +135,26 @@ std::optional<SurfaceRays::Hit> SurfaceRays::first(const glm::dvec3& origin,
                 distance >= farthest)
                 continue;
             farthest = distance;
-            nearest = {distance, origin + distance * direction,
-                       glm::normalize(glm::cross(triangle.edges[0], triangle.edges[1])),
-                       triangle.object};
+            found = i;
+            if (isAnyEnough) return found;
         }
     }
-    return nearest;
+    return found;
+}
+
+std::optional<SurfaceRays::Hit> SurfaceRays::first(const glm::dvec3& origin,
+                                                   const glm::dvec3& direction) const {
+    double distance = std::numeric_limits<double>::infinity();
+    const std::optional<std::size_t> found = hit(origin, direction, distance, false);
+    if (!found) return {};
+    const Triangle& triangle = triangles_[*found];
+    return Hit{distance, origin + distance * direction,
+               glm::normalize(glm::cross(triangle.edges[0], triangle.edges[1])), triangle.object};
+}
+
+bool SurfaceRays::isBlocked(const glm::dvec3& origin, const glm::dvec3& direction,
+                            double farthest) const {
+    return hit(origin, direction, farthest, true).has_value();
 }
 
 }  // namespace kaustik::scene

@@ -28,10 +28,12 @@ class SurfaceRays {
         glm::dvec3 normal{0.0};
         std::size_t object = 0;  // its place in the scene
     };
-    // `direction`: unit. Nothing where no surface is nearer than `farthest`.
-    [[nodiscard]] std::optional<Hit> first(
-        const glm::dvec3& origin, const glm::dvec3& direction,
-        double farthest = std::numeric_limits<double>::infinity()) const;
+    // `direction`: unit. Nothing where there is no surface.
+    [[nodiscard]] std::optional<Hit> first(const glm::dvec3& origin,
+                                           const glm::dvec3& direction) const;
+    // Whether any surface is nearer than `farthest`.
+    [[nodiscard]] bool isBlocked(const glm::dvec3& origin, const glm::dvec3& direction,
+                                 double farthest = std::numeric_limits<double>::infinity()) const;
 
   private:
     struct Triangle {
@@ -46,6 +48,9 @@ class SurfaceRays {
         std::uint32_t count = 0;  // of a leaf's triangles; 0: the first child is the next node
     };
     void addNode(std::size_t begin, std::size_t end);
+    [[nodiscard]] std::optional<std::size_t> hit(const glm::dvec3& origin,
+                                                 const glm::dvec3& direction, double& farthest,
+                                                 bool isAnyEnough) const;
 
     std::vector<Triangle> triangles_;
     std::vector<Node> nodes_;

@@ -81,7 +81,7 @@ std::optional<glm::dvec3> towardsLight(const glm::dvec3& point, const scene::Sce
                                        const scene::SurfaceRays& receivers) {
     for (const scene::Light& light : scene.lights) {
         if (light.kind == scene::LightKind::directional) {
-            if (!receivers.first(point, -light.direction)) return -light.direction;
+            if (!receivers.isBlocked(point, -light.direction)) return -light.direction;
             continue;
         }
         const glm::dvec3 offset = light.position - point;
@@ -93,7 +93,7 @@ std::optional<glm::dvec3> towardsLight(const glm::dvec3& point, const scene::Sce
                 std::cos(static_cast<double>(light.outerConeRadians))) {
             continue;
         }
-        if (!receivers.first(point, direction, distance)) return direction;
+        if (!receivers.isBlocked(point, direction, distance)) return direction;
     }
     return std::nullopt;
 }
@@ -110,7 +110,7 @@ bool sees(const glm::dvec3& point, const ReachedPlace& place, const scene::Surfa
     // From the side that light comes to.
     if (slant * glm::dot(place.normal, place.position - place.from) <= 0.0) return false;
     if (std::abs(slant) < kMinSlant) return false;
-    return !receivers.first(point, direction, (1.0 - 1e-4) * distance);
+    return !receivers.isBlocked(point, direction, (1.0 - 1e-4) * distance);
 }
 
 double seenShare(const glm::dvec3& point, const std::vector<ReachedPlace>& places,

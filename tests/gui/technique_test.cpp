@@ -159,6 +159,8 @@ TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {
 
     bench->click("variant.edit_b");
     open("Passes");
+    // Where reasons take several lines, the last rows are out of sight.
+    bench->wheel("passes.on.emit.grid", -20);
     EXPECT_EQ(bench->value("passes.on.compose.direct"), "off");
     open("Technique");
     bench->click("variant.drop");
