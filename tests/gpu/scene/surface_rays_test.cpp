@@ -31,7 +31,7 @@ TEST(SurfaceRays, FindTheNearestReceiverAndNothingSpecular) {
     const auto floor = rays.first({2.1, 5, 0.2}, {0, -1, 0});
     ASSERT_TRUE(floor.has_value());
     EXPECT_NEAR(floor->distance, 5.0, 1e-6);
-    EXPECT_FALSE(rays.first({2.1, 5, 0.2}, {0, -1, 0}, 4.9).has_value());
+    EXPECT_FALSE(rays.isBlocked({2.1, 5, 0.2}, {0, -1, 0}, 4.9));
     EXPECT_FALSE(rays.first({2.1, 5, 0.2}, {0, 1, 0}).has_value());
 }
 
