@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/reference_worker.h"
-#include "framework/gui/priority.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 
 #include "framework/core/error.h"
 #ifdef KAUSTIK_HAS_EMBREE
+#include "framework/gui/priority.h"
 #include "framework/reference/reference.h"
 #include "framework/run/caustic_errors.h"
 #include "framework/run/reference_work.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/thumbnails.h"
-#include "framework/gui/priority.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +12,7 @@
 #include "framework/core/files.h"
 #include "framework/experiment/fingerprint.h"
 #include "framework/experiment/process.h"
+#include "framework/gui/priority.h"
 #include "framework/run/cache_folder.h"
 #include "framework/scene/files/scene_file.h"
 
