@@ -5,9 +5,9 @@
     experiments/workbench.py [--kaustik build/release/bin/kaustik] [--scene pool] [--out results/workbench]
 
 At 1600x1000. Starts it once so that all programs are compiled, then measures from a new start: the time until the window is drawn, to the first, quick picture
-and to the first whole one; what a frame of the interface takes while the camera is turned and while frames are rendered (status.interface_ms of --describe,
-which has the window drawn 60 times a second). Frames are the default's, and, so that one takes about three seconds, some of 1280x1280 photons. Of both, without
---describe: what a frame takes when nobody touches the window (the panel Passes, saved as CSV by its button) next to `kaustik run --precise` of the same.
+and to the first whole one; what a frame of the interface takes while the camera is turned and, the mouse moving over the picture, while frames are rendered
+(status.interface_ms of --describe). Frames are the default's, and, so that one takes about three seconds, some of 1280x1280 photons. Of both:
+what a frame takes when nobody touches the window (the panel Passes, saved as CSV by its button) next to `kaustik run --precise` of the same.
 Frames are sums of their passes' medians. Then how much of the window the picture has as the workbench first starts, at two sizes.
 Writes OUT/interface.csv, a row a quantity, and OUT/layout.csv. Needs Xvfb and libXtst; on a machine that nobody else uses (cpu time of others is in the rows).
 """
@@ -15,6 +15,7 @@ Writes OUT/interface.csv, a row a quantity, and OUT/layout.csv. Needs Xvfb and l
 import argparse
 import csv
 import ctypes
+import itertools
 import json
 import os
 import statistics
@@ -77,7 +78,7 @@ class Desktop:
 class Workbench:
     """The program with new settings: only the window's size, a document's settings and a folder for tables."""
 
-    def __init__(self, options, desktop, folder, describes, size=SIZE, assignments=None):
+    def __init__(self, options, desktop, folder, size=SIZE, assignments=None):
         self.file = folder / "screen.json"
         self.file.unlink(missing_ok=True)
         settings = folder / "config/kaustik/workbench.json"
@@ -89,7 +90,7 @@ class Workbench:
         settings.write_text(json.dumps(kept))
         environment = dict(os.environ, DISPLAY=desktop.name, XDG_CONFIG_HOME=str(folder / "config"))
         environment.pop("WAYLAND_DISPLAY", None)
-        words = [options.kaustik, "gui", options.scene] + (["--describe", str(self.file)] if describes else [])
+        words = [options.kaustik, "gui", options.scene, "--describe", str(self.file)]
         self.begin = time.monotonic()
         self.process = subprocess.Popen(words, env=environment, cwd=folder)
 
@@ -99,8 +100,9 @@ class Workbench:
         except (OSError, ValueError):
             return None
 
-    def until(self, is_so, seconds=600):
+    def until(self, is_so, seconds=600, meanwhile=lambda: None):
         while time.monotonic() - self.begin < seconds:
+            meanwhile()
             if self.process.poll() is not None:
                 sys.exit("workbench.py: the workbench has ended")
             screen = self.screen()
@@ -144,7 +146,7 @@ def share_of(screen, control, size):
 
 def start(options, desktop, folder):
     """From a start with all programs compiled."""
-    bench = Workbench(options, desktop, folder, True)
+    bench = Workbench(options, desktop, folder)
     _, window = bench.until(lambda screen: True)
     screen, quick = bench.until(lambda s: s["controls"].get("picture", {}).get("value") in ("preview", "whole"))
     if screen["controls"]["shown"]["value"] != "preview":
@@ -166,16 +168,18 @@ def start(options, desktop, folder):
 
 def frames(options, desktop, folder, what, assignments):
     """Of frames with these settings: the interface meanwhile, and what they take next to `kaustik run`."""
-    bench = Workbench(options, desktop, folder, True, assignments=assignments)
-    screen, _ = bench.until(is_settled)
+    bench = Workbench(options, desktop, folder, assignments=assignments)
+    screen, _ = bench.until(lambda s: "picture" in s["controls"])
+    x, y = middle_of(screen["controls"]["picture"])
+    steps = itertools.count()
+    screen, _ = bench.until(is_settled, meanwhile=lambda: desktop.move(x + next(steps) % 200, y))
     if screen["status"]["document"]["variant"]["set"] != assignments:
         sys.exit("workbench.py: the workbench has not taken the settings over")
     median, worst = interface(screen)
-    csv_button = middle_of(screen["controls"]["table.csv.passes"])
     bench.close()
-    quiet = Workbench(options, desktop, folder, False, assignments=assignments)
-    time.sleep(40)
-    desktop.move(*csv_button)
+    quiet = Workbench(options, desktop, folder, assignments=assignments)
+    screen, _ = quiet.until(is_settled)
+    desktop.move(*middle_of(screen["controls"]["table.csv.passes"]))
     time.sleep(0.5)
     desktop.button(True)
     time.sleep(0.5)
@@ -184,7 +188,7 @@ def frames(options, desktop, folder, what, assignments):
     quiet.close()
     tables = list((folder / "tables").glob("*.csv"))
     if not tables:
-        sys.exit("workbench.py: the button CSV of the panel Passes is not where it was with --describe")
+        sys.exit(f"workbench.py, {what}: the button CSV of the panel Passes has saved nothing")
     with open(tables[0], newline="", encoding="utf-8") as file:
         here = pass_sum(list(csv.DictReader(file)))
     tables[0].unlink()
@@ -198,7 +202,7 @@ def frames(options, desktop, folder, what, assignments):
 
 
 def layout(options, desktop, folder, size):
-    bench = Workbench(options, desktop, folder, True, size)
+    bench = Workbench(options, desktop, folder, size)
     screen, _ = bench.until(is_settled)
     shares = [share_of(screen, "picture.pane", size), share_of(screen, "picture", size)]
     desktop.move(*middle_of(screen["controls"]["picture"]))
@@ -228,7 +232,7 @@ def main():
         folder = Path(name)
         desktop = Desktop(SIZE)
         try:
-            warm = Workbench(options, desktop, folder, True)
+            warm = Workbench(options, desktop, folder)
             warm.until(is_settled)
             warm.close()
             results = start(options, desktop, folder)

@@ -25,6 +25,7 @@
 #include "framework/gui/study_worker.h"
 #include "framework/gui/thumbnails.h"
 #include "framework/gui/time_history.h"
+#include "framework/gui/variant_parameters.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
@@ -63,6 +64,7 @@ struct Bench {
     std::uint64_t keptCount = 0;
     // What was rendered in this session: times of A and B, and settings with their errors.
     std::array<TimeHistory, 2> histories{};
+    VariantParametersCache parameters{};
     std::vector<SettledPoint> points{};
     // RMSE and FLIP of all pairs of caustic irradiances, once they are asked for.
     std::shared_ptr<const Table> pairs{};
@@ -144,6 +146,10 @@ struct Bench {
     }
     [[nodiscard]] const VariantResult& editedResult() const {
         return result->variants[editedIndex()];
+    }
+    // Throws ConfigError where a setting is none of its technique's.
+    [[nodiscard]] std::shared_ptr<const VariantParameters> editedParameters() {
+        return parameters.of(document, editedIndex(), result, registry);
     }
     [[nodiscard]] ShownRequest requested() const {
         return {document, pictureOrder, view, editedIndex(), &kept, difference};

@@ -16,8 +16,7 @@ gl::Object<gl::detail::deleteTexture> makeTexture(GLenum format, int width, int 
     glTextureStorage2D(id, 1, format, width, height);
     glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    // Pixels stay pixels when they are zoomed.
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
@@ -53,8 +52,13 @@ void Canvas::show(std::size_t slotIndex, const Image& image, std::uint64_t versi
     }
 }
 
-void* Canvas::texture(std::size_t slot) const {
-    return reinterpret_cast<void*>(static_cast<std::uintptr_t>(slots_[slot].mapped.id()));
+void* Canvas::texture(std::size_t slot, float zoom) const {
+    const GLuint id = slots_[slot].mapped.id();
+    // One filter for both: a software rasteriser pays for choosing between two at each pixel.
+    const GLint filter = zoom < 1.0f ? GL_LINEAR : GL_NEAREST;
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, filter);
+    return reinterpret_cast<void*>(static_cast<std::uintptr_t>(id));
 }
 
 Image Canvas::read(std::size_t slotIndex) const {

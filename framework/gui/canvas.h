@@ -35,8 +35,9 @@ class Canvas {
     // Shows `image` in a slot; uploads it only if `version` is another than before.
     void show(std::size_t slot, const Image& image, std::uint64_t version,
               const ToneMapping& mapping);
-    // The mapped texture, top row first, as ImGui takes it.
-    [[nodiscard]] void* texture(std::size_t slot) const;
+    // The mapped texture, top row first, as ImGui takes it, to be drawn `zoom` window pixels a
+    // pixel: pixels stay pixels where they are enlarged.
+    [[nodiscard]] void* texture(std::size_t slot, float zoom) const;
     // The same read back: RGB, display-encoded; waits for the device.
     [[nodiscard]] Image read(std::size_t slot) const;
     // The first slots are the two sides of the split, then small pictures of a pass's textures,

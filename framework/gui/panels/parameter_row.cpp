@@ -17,15 +17,6 @@ constexpr float kNoEffectAlpha = 0.5f;
 
 }  // namespace
 
-std::string whyNoEffectNow(const Bench& bench, const params::ParamSet& params,
-                           const std::string& name) {
-    const scene::SceneNeeds* needs = bench.result->scene ? &bench.result->scene->needs : nullptr;
-    const FrameFacts facts{bench.registry, params, needs};
-    const std::vector<graph::PassRecord>& passes = bench.editedResult().passes;
-    // Before there is a frame only what is declared can say so.
-    return passes.empty() ? whyNoEffect(facts, name) : whyNoEffect(facts, passes, name);
-}
-
 bool beginParameterTable(const std::string& name) {
     if (!ImGui::BeginTable(name.c_str(), 2, ImGuiTableFlags_Resizable)) return false;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.53f);
@@ -33,12 +24,12 @@ bool beginParameterTable(const std::string& name) {
     return true;
 }
 
-void drawParameterRow(Bench& bench, const params::ParamSet& params, const params::NamedField& named,
-                      const std::string& reason) {
+void drawParameterRow(Bench& bench, const VariantParameters& all, const params::NamedField& named) {
+    const std::string& reason = all.noEffect.at(named.fullName);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    const bool isChanged = params.isSetByUser(named.fullName);
+    const bool isChanged = all.params.isSetByUser(named.fullName);
     const std::string label = named.fullName.substr(named.fullName.find('.') + 1);
     if (!reason.empty()) {
         ImGui::TextDisabled("%s", label.c_str());

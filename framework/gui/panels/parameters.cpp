@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <map>
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
@@ -32,18 +31,17 @@ params::ParamSet defaultsOf(const Bench& bench, const Variant& variant) {
 
 // What is in the list, and how many are not because they have no effect.
 struct Choice {
-    std::vector<params::NamedField> fields;
-    std::map<std::string, std::string> reasons;  // by full name, why it has no effect
+    std::vector<const params::NamedField*> fields;
     int leftOut = 0;
 };
 
-Choice chosenOf(const Bench& bench, const params::ParamSet& params) {
+Choice chosenOf(const Bench& bench, const VariantParameters& all) {
     const PanelState& panels = bench.panels;
     std::optional<params::ParamSet> defaults;
     if (panels.showsChangedParameters)
         defaults = defaultsOf(bench, bench.variantOf(bench.editedIndex()));
     Choice choice;
-    for (params::NamedField& named : params.all()) {
+    for (const params::NamedField& named : all.fields) {
         const std::string& name = named.fullName;
         if (defaults) {
             if (defaults->find(name).text() == named.field.text()) continue;
@@ -51,34 +49,32 @@ Choice chosenOf(const Bench& bench, const params::ParamSet& params) {
             continue;  // a stage's node, which the panel Technique has
         }
         if (!panels.parameterSearch.empty() && !matches(named, panels.parameterSearch)) continue;
-        std::string reason = whyNoEffectNow(bench, params, name);
         // What a value next to it keeps from having an effect is shown all the same.
-        if (!defaults && !panels.showsAllParameters && reason != named.field.obstacle &&
-            !params.isSetByUser(name)) {
+        if (!defaults && !panels.showsAllParameters &&
+            all.noEffect.at(name) != named.field.obstacle && !all.params.isSetByUser(name)) {
             ++choice.leftOut;
             continue;
         }
-        choice.reasons[name] = std::move(reason);
-        choice.fields.push_back(std::move(named));
+        choice.fields.push_back(&named);
     }
-    std::stable_sort(choice.fields.begin(), choice.fields.end(), [&](const auto& a, const auto& b) {
-        return stageRank(bench.registry, stageOf(a.fullName)) <
-               stageRank(bench.registry, stageOf(b.fullName));
+    std::stable_sort(choice.fields.begin(), choice.fields.end(), [&](const auto* a, const auto* b) {
+        return stageRank(bench.registry, stageOf(a->fullName)) <
+               stageRank(bench.registry, stageOf(b->fullName));
     });
     return choice;
 }
 
-void drawList(Bench& bench, const params::ParamSet& params, const Choice& choice) {
+void drawList(Bench& bench, const VariantParameters& all, const Choice& choice) {
     std::string stage;
     bool isTable = false;
-    for (const params::NamedField& named : choice.fields) {
-        if (stageOf(named.fullName) != stage) {
+    for (const params::NamedField* named : choice.fields) {
+        if (stageOf(named->fullName) != stage) {
             if (isTable) ImGui::EndTable();
-            stage = stageOf(named.fullName);
+            stage = stageOf(named->fullName);
             ImGui::TextColored(stageColor(bench.registry, stage), "%s", stage.c_str());
             isTable = beginParameterTable(stage);
         }
-        if (isTable) drawParameterRow(bench, params, named, choice.reasons.at(named.fullName));
+        if (isTable) drawParameterRow(bench, all, *named);
     }
     if (isTable) ImGui::EndTable();
 }
@@ -117,9 +113,8 @@ void drawParameters(Bench& bench) {
         "Also those that have no effect, as of nodes that are not in use; grey, and a tooltip "
         "says why.");
     try {
-        const params::ParamSet params =
-            settingsOf(bench.edited(), bench.document.size, bench.registry).params;
-        const Choice choice = chosenOf(bench, params);
+        const std::shared_ptr<const VariantParameters> all = bench.editedParameters();
+        const Choice choice = chosenOf(bench, *all);
         if (choice.leftOut > 0) {
             ImGui::SameLine();
             ImGui::TextDisabled("%d left out", choice.leftOut);
@@ -133,7 +128,7 @@ void drawParameters(Bench& bench) {
             bench.map.control("parameters.remark", remark);
         }
         ImGui::BeginChild("list");
-        drawList(bench, params, choice);
+        drawList(bench, *all, choice);
         ImGui::EndChild();
     } catch (const Error& error) {
         ImGui::TextWrapped("%s", error.what());

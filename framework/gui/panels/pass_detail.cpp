@@ -47,7 +47,7 @@ void drawThumbnail(Bench& bench, const VariantResult& result, const std::string&
     const float scale = std::min(size.x / width, size.y / height);
     const ImVec2 low(corner.x + 0.5f * (size.x - scale * width),
                      corner.y + 0.5f * (size.y - scale * height));
-    draw.AddImage(bench.canvas.texture(Canvas::kSides + index), low,
+    draw.AddImage(bench.canvas.texture(Canvas::kSides + index, scale), low,
                   {low.x + scale * width, low.y + scale * height});
 }
 
@@ -133,10 +133,9 @@ bool belongsTo(const std::string& parameter, const std::string& pass) {
 
 void drawItsParameters(Bench& bench, const std::string& pass) {
     try {
-        const params::ParamSet params =
-            settingsOf(bench.edited(), bench.document.size, bench.registry).params;
+        const std::shared_ptr<const VariantParameters> all = bench.editedParameters();
         bool isTable = false;
-        for (const params::NamedField& named : params.all()) {
+        for (const params::NamedField& named : all->fields) {
             if (!belongsTo(named.fullName, pass)) continue;
             if (!isTable) {
                 ImGui::Spacing();
@@ -144,7 +143,7 @@ void drawItsParameters(Bench& bench, const std::string& pass) {
                 isTable = beginParameterTable("of the pass");
                 if (!isTable) return;
             }
-            drawParameterRow(bench, params, named, whyNoEffectNow(bench, params, named.fullName));
+            drawParameterRow(bench, *all, named);
         }
         if (isTable) ImGui::EndTable();
     } catch (const Error& error) {

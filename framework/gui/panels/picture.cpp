@@ -131,7 +131,10 @@ void drawPart(Bench& bench, const Part& part) {
     bench.canvas.show(part.slot, *part.image->values, part.image->version, part.image->mapping);
     draw.PushClipRect({part.left, frame.corner.y}, {part.right, frame.corner.y + frame.size.y},
                       true);
-    draw.AddImage(bench.canvas.texture(part.slot), frame.low, frame.high);
+    // It covers what is below it: blending would cost as much again on a software rasteriser.
+    draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+    draw.AddImage(bench.canvas.texture(part.slot, frame.zoom), frame.low, frame.high);
+    draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
     drawRegions(part);
     drawNumbers(bench, part);
     draw.PopClipRect();

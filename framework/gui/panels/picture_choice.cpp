@@ -35,7 +35,8 @@ void drawThumbnail(Bench& bench, std::size_t index, const Thumbnail& thumbnail, 
         mapping.isEncoded = true;
         const std::size_t slot = Canvas::kFirstChoice + index;
         bench.canvas.show(slot, *thumbnail.image, thumbnail.version, mapping);
-        draw.AddImage(bench.canvas.texture(slot), low, high);
+        const float zoom = (high.x - low.x) / static_cast<float>(thumbnail.image->width);
+        draw.AddImage(bench.canvas.texture(slot, zoom), low, high);
         return;
     }
     const char* words = thumbnail.state == Thumbnail::State::rendering ? "rendering …"

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cfloat>
 
-#include "framework/gui/panels/parameter_row.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -31,13 +30,13 @@ Variable techniqueVariable(const Bench& bench, const Variant& variant) {
 }
 
 // What has an effect now, a stage's choice of node among it.
-std::vector<Variable> variablesOf(const Bench& bench, const Variant& variant) {
+std::vector<Variable> variablesOf(Bench& bench, const Variant& variant) {
     std::vector<Variable> variables = {techniqueVariable(bench, variant)};
-    const params::ParamSet params = settingsOf(variant, bench.document.size, bench.registry).params;
-    for (const params::NamedField& named : params.all()) {
+    const std::shared_ptr<const VariantParameters> all = bench.editedParameters();
+    for (const params::NamedField& named : all->fields) {
         const params::Field& field = named.field;
         if (field.typeName() == "choice" && field.choices.size() < 2) continue;
-        if (!whyNoEffectNow(bench, params, named.fullName).empty()) continue;
+        if (!all->noEffect.at(named.fullName).empty()) continue;
         Variable variable{named.fullName,    field.sentence, field.choices,
                           field.rangeText(), field.unit,     field.text()};
         if (field.typeName() == "bool") variable.options = {"false", "true"};

@@ -164,14 +164,13 @@ void drawTechnique(Bench& bench) {
     chooseVariant(bench, "variant");
     drawTechniqueChoice(bench);
     try {
-        const params::ParamSet params =
-            settingsOf(bench.edited(), bench.document.size, bench.registry).params;
+        const std::shared_ptr<const VariantParameters> all = bench.editedParameters();
         if (ImGui::BeginTable("stages", 2)) {
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
                                     ImGui::GetFontSize() * 7.0f);
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
             for (const Registry::StageEntry& stage : bench.registry.stages())
-                drawStage(bench, params, stage);
+                drawStage(bench, all->params, stage);
             ImGui::EndTable();
         }
     } catch (const Error& error) {
