@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.edges: the pixels in which a surface ends (techniques/reconstruct/edge_samples.h).
 #include "include/thread_list.glsl"
-#include "include/views/view.glsl"
+#include "include/views/continued_plane.glsl"
 
 layout(std430) buffer EdgePixels {
     ThreadList edges;
@@ -9,19 +9,3 @@ layout(std430) buffer EdgePixels {
 };
 
 uniform uint edgeCapacity;
-
-// Cosine between the normals of what is one surface, curved or bent by less than that.
-const float kMinSameCosine = 0.9;
-
-// Whether a receiver that is seen at a place in the view, px, at this depth, m, not of a mirror, and
-// with this unit normal lies on a plane through a point, as far as pixels tell. `margin`: of what the
-// plane was seen by, m.
-bool continuesPlane(vec3 point, vec3 normal, float margin, vec2 place, float depth,
-                    vec3 seenNormal) {
-    if (depth <= 0.0 || dot(seenNormal, normal) < kMinSameCosine) return false;
-    vec3 ray = viewRay(place);
-    float facing = dot(normal, ray);
-    if (abs(facing) < 1e-4) facing = facing < 0.0 ? -1e-4 : 1e-4;
-    float onPlane = dot(normal, point) / facing;
-    return abs(depth - onPlane) <= margin + depthMargin(ray, depth, seenNormal);
-}

@@ -26,11 +26,7 @@ const uint kKind = kPatchesOfBeams;
 #endif
 
 // Pixels of the rectangles around a patch, or each of its copies, for one thread.
-#ifdef LIGHT_SPREAD
-const int kMaxPixelsPerThread = 200;
-#else
-const int kMaxPixelsPerThread = 400;
-#endif
+const int kMaxPixelsPerThread = 100;
 
 void coverPatch(Patch whole) {
 #ifndef MANY_VIEWS

@@ -52,6 +52,12 @@ struct VertexShares {
 struct PatchBlock {
     glm::vec4 flux, low, high;
 };
+// As triangles_pixel_blocks.glsl has it.
+struct PixelBlock {
+    glm::vec4 receiver;
+    std::uint32_t sums[6], unused[2];
+};
+constexpr int kBlockSide = 4;  // px
 constexpr int kMaxMerges = 4;
 
 // On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its
@@ -84,11 +90,17 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
         graph::Buffer<VertexShares> shares;
         graph::Buffer<std::uint32_t> patches;  // counts, and a list
         graph::Buffer<WidePatch> wide;
-        graph::Buffer<PatchBlock> blocks;  // where any are merged
+        graph::Buffer<PatchBlock> blocks;       // where any are merged
+        graph::Buffer<PixelBlock> pixelBlocks;  // of the eye's view
         graph::Buffer<transport::Clamped> clamped;
     };
     const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
     const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches);
+    // A light's map is read between its texels, and how light goes to the eye is each pixel's own.
+    const bool hasBlocks = store.isEyeView() && !isGlossy;
+    const auto blocksAlong = [](int pixels) { return (pixels + kBlockSide - 1) / kBlockSide; };
+    const int pixelBlocks =
+        hasBlocks ? blocksAlong(frame.width()) * blocksAlong(frame.height()) : 0;
     const std::string reason = hits.incoming.cells.width > 0
                                    ? "what neighbours bring is spread between them"
                                    : "no photon has neighbours: each is covered by its own beam";
@@ -126,10 +138,15 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                 setup.define("MERGES");
                 create(data.blocks, "PatchBlocks", "blocks", capacity);
             }
+            if (hasBlocks) {
+                setup.define("PIXEL_BLOCKS");
+                create(data.pixelBlocks, "PixelBlocks", "pixel_blocks",
+                       static_cast<std::size_t>(pixelBlocks));
+            }
             create(data.clamped, "ClampedWidths", "clamped", 1);
         },
-        [params, sets, store, wideCapacity, list = hits.incoming](const Data& data,
-                                                                  gl::PassContext& context) {
+        [params, sets, store, wideCapacity, pixelBlocks, list = hits.incoming](
+            const Data& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
             context.buffer(data.photonOfCell).clear();
             if (!context.isRepeated()) context.buffer(data.clamped).clear();
@@ -188,7 +205,12 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                 coverPatches(true);
             }
             countGroups(Listed::widePatches);
+            const auto dispatchOverBlocks = [&](const char* name) {
+                if (pixelBlocks > 0) shader(name).dispatchOver(pixelBlocks, 64);
+            };
+            dispatchOverBlocks("reconstruct/triangles_pixel_blocks.comp");
             dispatchOverPatches(shader("reconstruct/triangles_wide.comp"), kWidePatches);
+            dispatchOverBlocks("reconstruct/triangles_pixel_blocks_share.comp");
         });
     reportWidthLimit(frame,
                      {"reconstruct.triangles", "maximum", WidthBound::largest,

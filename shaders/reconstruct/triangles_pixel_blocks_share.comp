@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// reconstruct.triangles: what squares of pixels have of wide patches goes to their pixels, by the area
+// that each sees: the same irradiance, and together the same flux to the last unit. One thread a
+// square.
+#include "include/maps/flux_sum.glsl"
+#include "include/thread.glsl"
+#include "reconstruct/triangles_patch_list.glsl"
+#include "reconstruct/triangles_pixel_blocks.glsl"
+
+// floor(sum part / 65536), low and high word; `part` from 0 to 65536.
+uvec2 partOfSum(uvec2 sum, uint part) {
+    uint carry;
+    uint lowHigh;
+    uint lowLow;
+    umulExtended(sum.x, part, lowHigh, lowLow);
+    uint highHigh;
+    uint highLow;
+    umulExtended(sum.y, part, highHigh, highLow);
+    uint middle = uaddCarry(lowHigh, highLow, carry);
+    return uvec2(lowLow >> 16u | middle << 16u, middle >> 16u | (highHigh + carry) << 16u);
+}
+
+// No atomic: all others have added what they have.
+void addWords(ivec3 word, uvec2 sum) {
+    uint before = imageLoad(fluxSums, word).x;
+    uint carry;
+    uint low = uaddCarry(before, sum.x, carry);
+    imageStore(fluxSums, word, uvec4(low));
+    uint high = sum.y + carry;
+    if (high == 0u) return;
+    ivec3 above = word + ivec3(0, 0, 1);
+    imageStore(fluxSums, above, uvec4(imageLoad(fluxSums, above).x + high));
+}
+
+void main() {
+    ivec2 blocks = blocksOfView();
+    uint index = threadNumber();
+    if (widePatches.count == 0u || index >= uint(blocks.x * blocks.y)) return;
+    uint sums[6] = pixelBlocks[index].sums;
+    if ((sums[0] | sums[1] | sums[2] | sums[3] | sums[4] | sums[5]) == 0u) return;
+    ivec2 corner = kBlockSide * ivec2(index % uint(blocks.x), index / uint(blocks.x));
+    const int kPixels = kBlockSide * kBlockSide;
+    float perArea = 65536.0 / (float(kPixels) * pixelBlocks[index].receiver.y);
+    float area = 0.0;
+    uint begin = 0u;
+    for (int i = 0; i < kPixels; ++i) {
+        ivec2 pixel = corner + ivec2(i % kBlockSide, i / kBlockSide);
+        area += receiverAt(pixel).y;
+        uint end = i == kPixels - 1 ? 65536u : min(uint(area * perArea + 0.5), 65536u);
+        for (int channel = 0; channel < 3; ++channel) {
+            uvec2 sum = uvec2(sums[2 * channel], sums[2 * channel + 1]);
+            uvec2 from = partOfSum(sum, begin);
+            uvec2 to = partOfSum(sum, end);
+            uint borrow;
+            uint low = usubBorrow(to.x, from.x, borrow);
+            addWords(ivec3(pixel, int(kFluxWords) * viewIndex + 2 * channel),
+                     uvec2(low, to.y - from.y - borrow));
+        }
+        begin = end;
+    }
+}
