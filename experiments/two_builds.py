@@ -6,7 +6,7 @@
 
 BEFORE and AFTER are folders of builds, each next to its own shaders and meshes (build/release of a checkout). Each pair gives a ratio of the two
 medians of a frame; the interval is that of the mean of the ratios' logarithms, at 95 of 100 (Student's t). A scene that either build refuses has a
-row with its message. FILE's rows of other scenes are left as they are. Writes a row a scene: ms before and after (medians of the pairs), ratio, low, high. On an idle machine, or the figures are noise:
+row with its message. Where the options ask for a reference, the caustic's relMSE by each is in the row. FILE's rows of other scenes are left as they are. Writes a row a scene: ms before and after (medians of the pairs), ratio, low, high. On an idle machine, or the figures are noise:
 what other processes took of it meanwhile is said in other_processors, the most of any run.
 """
 
@@ -23,7 +23,7 @@ import tempfile
 
 SCENES = ["blocker", "concave-glass", "cornell-bunny", "flat-water", "glass-bunny", "glass-dragon", "glass-dragon-low", "glass-sphere", "glass-teapot",
           "glossy-table", "god-rays", "pool", "pool-reflections", "ring", "tree", "water-from-below"]
-COLUMNS = ["scene", "pairs", "before, ms", "after, ms", "ratio", "low", "high", "message", "before", "device", "version", "date", "other_processors"]
+COLUMNS = ["scene", "pairs", "before, ms", "after, ms", "ratio", "low", "high", "relMSE before", "relMSE after", "message", "before", "device", "version", "date", "other_processors"]
 # Of Student's t, two-sided, 95 of 100, by degrees of freedom.
 T95 = {4: 2.776, 9: 2.262, 14: 2.145, 19: 2.093, 39: 2.023, 59: 2.001, 99: 1.984}
 
@@ -50,6 +50,7 @@ def interval(ratios: list[float]) -> tuple[float, float, float]:
 
 def row_of(scene: str, before: pathlib.Path, after: pathlib.Path, pairs: int, options: list[str]) -> dict:
     times: dict[str, list[float]] = {"before": [], "after": []}
+    errors = {}
     load = 0.0
     with tempfile.TemporaryDirectory() as folder:
         try:
@@ -59,13 +60,15 @@ def row_of(scene: str, before: pathlib.Path, after: pathlib.Path, pairs: int, op
                 for name, build in (("before", before), ("after", after)):
                     report = run(build, scene, options, folder)
                     times[name].append(report["frame_ms"]["median"])
+                    error = report.get("error", {}).get("caustic_irradiance", {}).get("rel_mse")
+                    errors[f"relMSE {name}"] = "" if error is None else f"{error:.4g}"
                     load = max(load, report["timing"].get("other_processors", 0.0))
         except Refused as refused:
             return {"scene": scene, "message": str(refused)}
     ratio, low, high = interval([b / a for a, b in zip(times["before"], times["after"])])
     device = report["device"]
     return {"scene": scene, "pairs": pairs, "before, ms": f"{statistics.median(times['before']):.1f}", "after, ms": f"{statistics.median(times['after']):.1f}",
-            "ratio": f"{ratio:.3f}", "low": f"{low:.3f}", "high": f"{high:.3f}", "version": report["version"], "date": report["timing"]["date"],
+            "ratio": f"{ratio:.3f}", "low": f"{low:.3f}", "high": f"{high:.3f}", **errors, "version": report["version"], "date": report["timing"]["date"],
             "device": f"{device['renderer']}, {device['cpu']}, {device['threads']} threads", "other_processors": f"{load:.2f}"}
 
 

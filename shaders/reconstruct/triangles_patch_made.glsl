@@ -33,6 +33,7 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     float largest = float(reconstruct_triangles_maximum);
     Patch made;
     made.isJoined = false;
+    made.isAlone = false;
     made.narrowing = 1.0;
     if (widest * scale > largest) {
         scale = largest / widest;
@@ -102,6 +103,7 @@ float densityOf(Arrival corner, vec3 direction) {
 Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     Patch made;
     made.isJoined = true;
+    made.isAlone = false;
     made.first = 0.5;
     made.narrowing = 1.0;
     made.corners = vec3[4](a.position, b.position, c.position, d.position);
@@ -215,7 +217,9 @@ Patch wholePatchOf(uint index, uint part) {
     if (part == kPatchBeam) {
         vec2 ends[4] = vec2[4](vec2(-0.5), vec2(0.5, -0.5), vec2(0.5), vec2(-0.5, 0.5));
         for (int i = 0; i < 4; ++i) ends[i] *= reachTowards(own, ends[i]);
-        return patchOfBeam(own, ends, 0.5);
+        Patch made = patchOfBeam(own, ends, 0.5);
+        made.isAlone = true;
+        return made;
     }
     own.flux *= fluxShare(own, index, part);
     // Photons at a border reach beyond their cells.

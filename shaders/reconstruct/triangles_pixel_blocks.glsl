@@ -20,12 +20,6 @@ ivec2 blocksOfView() {
     return (ivec2(view.sizePixels.xy) + kBlockSide - 1) / kBlockSide;
 }
 
-// Between photons that are joined light changes from pixel to pixel; a beam that covers many pixels
-// tells less.
-bool isForBlocks(Patch whole) {
-    return !whole.isJoined;
-}
-
 // The blocks on a line of them, first and last, that a patch can cover; none where x > y.
 ivec2 blockSpanOf(PatchLines lines, int line) {
     vec2 heights = vec2(kBlockSide * line - lines.base.y) + vec2(0.0, kBlockSide);

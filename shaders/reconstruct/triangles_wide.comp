@@ -86,7 +86,7 @@ void depositOnBlocks(Patch whole, PatchOnScreen onto, int thread, float total) {
 
 void addPartsOfThread(Patch whole, PatchOnScreen onto, int thread, inout PatchParts parts) {
 #ifdef PIXEL_BLOCKS
-    if (isForBlocks(whole)) {
+    if (whole.isAlone) {
         addPartsOfBlocks(onto, thread, parts);
         return;
     }
@@ -96,7 +96,7 @@ void addPartsOfThread(Patch whole, PatchOnScreen onto, int thread, inout PatchPa
 
 void depositOfThread(Patch whole, PatchOnScreen onto, int thread, float total) {
 #ifdef PIXEL_BLOCKS
-    if (isForBlocks(whole)) {
+    if (whole.isAlone) {
         depositOnBlocks(whole, onto, thread, total);
         return;
     }

@@ -6,8 +6,12 @@ struct WidePatch {
     vec4 corners[4];  // xyz, m; w: the density there
     vec4 normal;      // xyz; w: the share of the flux in the first of its triangles
     vec4 direction;   // xyz; w: its tolerance, m
-    vec4 flux;        // rgb, W; w: 1 between photons, 0 a beam's; 2 more: to the back of a sheet
+    vec4 flux;        // rgb, W; w: bits, kWide…
 };
+const uint kWideJoined = 1u;
+const uint kWideFromBehind = 2u;
+const uint kWideAlone = 4u;
+
 layout(std430) buffer WidePatches {
     WidePatch widePatchList[];
 };
@@ -17,7 +21,9 @@ WidePatch packedPatch(Patch whole) {
     for (int i = 0; i < 4; ++i) made.corners[i] = vec4(whole.corners[i], whole.densities[i]);
     made.normal = vec4(whole.side.normal, whole.first);
     made.direction = vec4(whole.side.direction, whole.tolerance);
-    made.flux = vec4(whole.flux, (whole.isJoined ? 1.0 : 0.0) + (whole.side.isFromBehind ? 2.0 : 0.0));
+    uint bits = (whole.isJoined ? kWideJoined : 0u) | (whole.isAlone ? kWideAlone : 0u) |
+                (whole.side.isFromBehind ? kWideFromBehind : 0u);
+    made.flux = vec4(whole.flux, float(bits));
     return made;
 }
 
@@ -27,11 +33,14 @@ Patch unpackedPatch(WidePatch from) {
         made.corners[i] = from.corners[i].xyz;
         made.densities[i] = from.corners[i].w;
     }
-    made.side = PatchSide(from.normal.xyz, from.direction.xyz, from.flux.w >= 2.0);
+    uint bits = uint(from.flux.w);
+    made.side =
+        PatchSide(from.normal.xyz, from.direction.xyz, (bits & kWideFromBehind) != 0u);
     made.first = from.normal.w;
     made.tolerance = from.direction.w;
     made.flux = from.flux.rgb;
-    made.isJoined = from.flux.w == 1.0 || from.flux.w == 3.0;
+    made.isJoined = (bits & kWideJoined) != 0u;
+    made.isAlone = (bits & kWideAlone) != 0u;
     made.narrowing = 1.0;
     return made;
 }

@@ -71,6 +71,25 @@ TEST(FlatWater, FloorIrradianceOfTrianglesIsTheClosedFormMoreClosely) {
     }
 }
 
+// Beams of many pixels put their light into squares of them (triangles_pixel_blocks.glsl), and those
+// next to each other share a square as they share its area.
+TEST(FlatWater, FloorIrradianceOfWideBeamsIsTheClosedFormAcrossTheirBorders) {
+    const scene::Scene scene = scene::loadScene("flat-water");
+    for (const char* photons : {"8x8", "16x16", "40x40"}) {
+        const Frame frame(scene, 322, 241,
+                          {{"emit.photons", photons},
+                           {"driver", "hierarchical"},
+                           {"reconstruct", "triangles"}});
+        const std::vector<double> deviations = floorDeviations(frame);
+        ASSERT_GT(deviations.size(), 10000u);
+        double worst = 0.0;
+        for (const double deviation : deviations)
+            worst = std::max(worst, std::abs(deviation));
+        RecordProperty(std::string("worst_ppm_") + photons, static_cast<int>(1e6 * worst));
+        EXPECT_LT(worst, 1e-3) << photons;
+    }
+}
+
 TEST(FlatWater, BlocksDirectLightSoThatNothingCountsTwice) {
     const scene::Scene scene = scene::loadScene("flat-water");
     const Frame frame(scene, 400, 300, {{"emit.photons", "64x64"}}, {"direct.irradiance"});
