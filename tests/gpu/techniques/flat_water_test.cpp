@@ -17,9 +17,10 @@ constexpr double kFloorHeight = -1.2;
 constexpr double kFloorIrradiance =
     1000.0 * (1.0 - (kIndex - 1.0) * (kIndex - 1.0) / ((kIndex + 1.0) * (kIndex + 1.0)));
 
-// Relative deviations from the closed form at the floor pixels away from the walls: farther than a
-// splat's radius (2.5 footprints of 4 m/256 = 0.04 m), where light is missing beyond the edge.
-std::vector<double> floorDeviations(const Frame& frame) {
+// Relative deviations from the closed form at the floor pixels that are so far from the walls, m: by
+// default farther than a splat's radius (2.5 footprints of 4 m/256 = 0.04 m), where light is missing
+// beyond the edge.
+std::vector<double> floorDeviations(const Frame& frame, double margin = 0.15) {
     const Texels receiver = frame.read("eye.receiver");
     const Texels irradiance = frame.causticIrradiance();
     std::vector<double> deviations;
@@ -29,7 +30,8 @@ std::vector<double> floorDeviations(const Frame& frame) {
             if (depth <= 0.0) continue;
             const glm::dvec3 world = frame.worldAt(x, y, depth);
             const bool isFloor = std::abs(world.y - kFloorHeight) < 1e-3;
-            const bool isInside = std::abs(world.x) < 1.85 && std::abs(world.z) < 1.35;
+            const bool isInside =
+                std::abs(world.x) < 2.0 - margin && std::abs(world.z) < 1.5 - margin;
             if (!isFloor || !isInside) continue;
             deviations.push_back(irradiance.rgb(x, y).g / kFloorIrradiance - 1.0);
         }
@@ -75,13 +77,14 @@ TEST(FlatWater, FloorIrradianceOfTrianglesIsTheClosedFormMoreClosely) {
 // next to each other share a square as they share its area.
 TEST(FlatWater, FloorIrradianceOfWideBeamsIsTheClosedFormAcrossTheirBorders) {
     const scene::Scene scene = scene::loadScene("flat-water");
-    for (const char* photons : {"8x8", "16x16", "40x40"}) {
+    for (const auto& [photons, cell] : {std::pair{"16x16", 0.25}, {"40x40", 0.1}}) {
         const Frame frame(scene, 322, 241,
                           {{"emit.photons", photons},
                            {"driver", "hierarchical"},
                            {"reconstruct", "triangles"}});
-        const std::vector<double> deviations = floorDeviations(frame);
-        ASSERT_GT(deviations.size(), 10000u);
+        // Cells at the walls are cut off by them.
+        const std::vector<double> deviations = floorDeviations(frame, 0.05 + 2.0 * cell);
+        ASSERT_GT(deviations.size(), 5000u);
         double worst = 0.0;
         for (const double deviation : deviations)
             worst = std::max(worst, std::abs(deviation));
