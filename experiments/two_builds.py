@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 """How long scenes take by two builds of the program, in turn: before, after, before, after.
 
-    two_builds.py BEFORE AFTER --csv FILE [--pairs 10] [--scenes NAME...] [-- options of kaustik run...]
+    two_builds.py BEFORE AFTER --csv FILE [--pairs 10] [--errors PHOTONS] [--scenes NAME...] [-- options of kaustik run...]
 
 BEFORE and AFTER are folders of builds, each next to its own shaders and meshes (build/release of a checkout). Each pair gives a ratio of the two
 medians of a frame; the interval is that of the mean of the ratios' logarithms, at 95 of 100 (Student's t). A scene that either build refuses has a
-row with its message. Where the options ask for a reference, the caustic's relMSE by each is in the row. FILE's rows of other scenes are left as they are. Writes a row a scene: ms before and after (medians of the pairs), ratio, low, high. On an idle machine, or the figures are noise:
+row with its message. With --errors the caustic's relMSE by each, against a reference of so many photons, is in the row. FILE's rows of other scenes are left as they are. Writes a row a scene: ms before and after (medians of the pairs), ratio, low, high. On an idle machine, or the figures are noise:
 what other processes took of it meanwhile is said in other_processors, the most of any run.
 """
 
@@ -48,20 +48,19 @@ def interval(ratios: list[float]) -> tuple[float, float, float]:
     return math.exp(middle), math.exp(middle - reach), math.exp(middle + reach)
 
 
-def row_of(scene: str, before: pathlib.Path, after: pathlib.Path, pairs: int, options: list[str]) -> dict:
+def row_of(scene: str, before: pathlib.Path, after: pathlib.Path, pairs: int, judged: list[str], options: list[str]) -> dict:
     times: dict[str, list[float]] = {"before": [], "after": []}
     errors = {}
     load = 0.0
     with tempfile.TemporaryDirectory() as folder:
         try:
-            for build in (before, after):  # programs are compiled and kept
-                run(build, scene, options, folder)
+            for name, build in (("before", before), ("after", after)):  # programs are compiled and kept
+                error = run(build, scene, [*options, *judged], folder).get("error", {}).get("caustic_irradiance", {}).get("rel_mse")
+                errors[f"relMSE {name}"] = "" if error is None else f"{error:.4g}"
             for _ in range(pairs):
                 for name, build in (("before", before), ("after", after)):
                     report = run(build, scene, options, folder)
                     times[name].append(report["frame_ms"]["median"])
-                    error = report.get("error", {}).get("caustic_irradiance", {}).get("rel_mse")
-                    errors[f"relMSE {name}"] = "" if error is None else f"{error:.4g}"
                     load = max(load, report["timing"].get("other_processors", 0.0))
         except Refused as refused:
             return {"scene": scene, "message": str(refused)}
@@ -99,12 +98,14 @@ def main() -> int:
     parser.add_argument("after", type=pathlib.Path)
     parser.add_argument("--csv", type=pathlib.Path, required=True)
     parser.add_argument("--pairs", type=int, default=10, choices=[count + 1 for count in T95])
+    parser.add_argument("--errors", type=int, metavar="PHOTONS")
     parser.add_argument("--scenes", nargs="+", default=SCENES)
     arguments, options = parser.parse_known_args([one for one in sys.argv[1:] if one != "--"])
+    judged = ["--reference", "auto", "--reference-photons", str(arguments.errors)] if arguments.errors else []
     rows = rows_of_others(arguments.csv, arguments.scenes)
     arguments.csv.parent.mkdir(parents=True, exist_ok=True)
     for scene in arguments.scenes:
-        rows.append(row_of(scene, arguments.before, arguments.after, arguments.pairs, options) | {"before": commit_of(arguments.before)})
+        rows.append(row_of(scene, arguments.before, arguments.after, arguments.pairs, judged, options) | {"before": commit_of(arguments.before)})
         print(scene, rows[-1].get("ratio") or rows[-1].get("message"), flush=True)
         write_rows(arguments.csv, COLUMNS, rows)
     return 0
