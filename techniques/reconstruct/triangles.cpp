@@ -3,13 +3,12 @@
 // that took the same path to the same surface are joined, and what two triangles between them cover
 // of each pixel is computed exactly, whatever their size; where a cell is folded over, light passes
 // as often as it is. What cannot be joined, at a silhouette, an edge or a change of path, is
-// covered by the photon's own beam; one that is wide and has no joined neighbour puts its light into
-// squares of the eye's pixels (triangles_pixel_blocks.glsl). No blending and no order: sums are in
-// fixed point. (Caustic
-// triangles: U08, section 4.2, there on the faces of a cube and by the device's rasteriser.) What
-// crosses from one face of a cube to the next is whole. In: hits with beams, eye view space, m and
-// W, and what views see; out: flux a pixel, W, and where a receiver is glossy radiant intensity
-// towards the eye, W/sr.
+// covered by the photon's own beam; one that is wide and has no joined neighbour puts its light
+// into squares of the eye's pixels (triangles_pixel_blocks.glsl). No blending and no order: sums
+// are in fixed point. (Caustic triangles: U08, section 4.2, there on the faces of a cube and by the
+// device's rasteriser.) What crosses from one face of a cube to the next is whole. In: hits with
+// beams, eye view space, m and W, and what views see; out: flux a pixel, W, and where a receiver is
+// glossy radiant intensity towards the eye, W/sr.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -17,9 +17,9 @@ constexpr double kFloorHeight = -1.2;
 constexpr double kFloorIrradiance =
     1000.0 * (1.0 - (kIndex - 1.0) * (kIndex - 1.0) / ((kIndex + 1.0) * (kIndex + 1.0)));
 
-// Relative deviations from the closed form at the floor pixels that are so far from the walls, m: by
-// default farther than a splat's radius (2.5 footprints of 4 m/256 = 0.04 m), where light is missing
-// beyond the edge.
+// Relative deviations from the closed form at the floor pixels that are so far from the walls, m:
+// by default farther than a splat's radius (2.5 footprints of 4 m/256 = 0.04 m), where light is
+// missing beyond the edge.
 std::vector<double> floorDeviations(const Frame& frame, double margin = 0.15) {
     const Texels receiver = frame.read("eye.receiver");
     const Texels irradiance = frame.causticIrradiance();
@@ -73,15 +73,14 @@ TEST(FlatWater, FloorIrradianceOfTrianglesIsTheClosedFormMoreClosely) {
     }
 }
 
-// Beams of many pixels put their light into squares of them (triangles_pixel_blocks.glsl), and those
-// next to each other share a square as they share its area.
+// Beams of many pixels put their light into squares of them (triangles_pixel_blocks.glsl), and
+// those next to each other share a square as they share its area.
 TEST(FlatWater, FloorIrradianceOfWideBeamsIsTheClosedFormAcrossTheirBorders) {
     const scene::Scene scene = scene::loadScene("flat-water");
     for (const auto& [photons, cell] : {std::pair{"16x16", 0.25}, {"40x40", 0.1}}) {
-        const Frame frame(scene, 322, 241,
-                          {{"emit.photons", photons},
-                           {"driver", "hierarchical"},
-                           {"reconstruct", "triangles"}});
+        const Frame frame(
+            scene, 322, 241,
+            {{"emit.photons", photons}, {"driver", "hierarchical"}, {"reconstruct", "triangles"}});
         // Cells at the walls are cut off by them.
         const std::vector<double> deviations = floorDeviations(frame, 0.05 + 2.0 * cell);
         ASSERT_GT(deviations.size(), 5000u);
