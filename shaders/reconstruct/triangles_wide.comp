@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// reconstruct.triangles: a wide patch's flux onto the pixels that it covers, or onto squares of them
-// (PIXEL_BLOCKS). Eight threads a patch, which take its lines of pixels, or of squares, in turn: with more, what there is to do once a patch outweighs
-// them, since most patches that are wide are slivers.
+// reconstruct.triangles: a wide patch's flux onto the pixels that it covers, or, of a beam with no
+// joined neighbour, onto squares of them (PIXEL_BLOCKS). Eight threads a patch, which take its lines
+// of pixels, or of squares, in turn: with more, what there is to do once a patch outweighs them, since
+// most patches that are wide are slivers.
 #include "include/thread.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
 #include "reconstruct/triangles_patch_list.glsl"
