@@ -67,6 +67,7 @@ TEST_F(ParametersPanel, AValueOutOfRangeBecomesTheNearestWithin) {
               std::string::npos);
     bench->typeInto("parameter.layers.count", "-3", Entry::controlClick);
     EXPECT_EQ(set().at("layers.count"), "1");
+    untilSettled();  // rows move as the new frame says what has an effect
     bench->typeInto("parameter.emit.photons", "0", Entry::click, "Return", {0.2, 0.5});
     EXPECT_EQ(set().at("emit.photons"), "1x32");
     untilSettled();
