@@ -43,12 +43,9 @@ void addPartsOfBlocks(PatchOnScreen onto, int thread, inout PatchParts parts) {
 
 // As sumAddTo() adds to a map.
 void addToBlock(int block, int channel, float units) {
-    float whole = floor(units + 0.5);
-    if (!(whole > 0.0)) return;
-    float high = floor(whole * (1.0 / 4294967296.0));
-    uint low = uint(whole - high * 4294967296.0);
-    uint before = atomicAdd(pixelBlocks[block].sums[2 * channel], low);
-    uint above = uint(high) + (before > 0xffffffffu - low ? 1u : 0u);
+    uvec2 words = wordsOfUnits(units);
+    if (words == uvec2(0u)) return;
+    uint above = highAddend(words, atomicAdd(pixelBlocks[block].sums[2 * channel], words.x));
     if (above > 0u) atomicAdd(pixelBlocks[block].sums[2 * channel + 1], above);
 }
 

@@ -7,17 +7,27 @@
 
 layout(r32ui) uniform uimage2DArray fluxSums;
 
-// Adds to the word and the one above it. Rounded to the nearest unit, so that a great many small
-// deposits are right on the whole. What is not a number, or negative, adds nothing: whoever deposits
-// has checked.
-void sumAddTo(ivec3 word, float units) {
+// The low and the high word of so many units, rounded to the nearest, so that a great many small
+// deposits are right on the whole. What is not a number, or negative, is nothing: whoever deposits has
+// checked.
+uvec2 wordsOfUnits(float units) {
     // A float has 24 bits, so that both words are exact.
     float whole = floor(units + 0.5);
-    if (!(whole > 0.0)) return;
+    if (!(whole > 0.0)) return uvec2(0u);
     float high = floor(whole * (1.0 / 4294967296.0));
-    uint low = uint(whole - high * 4294967296.0);
-    uint before = imageAtomicAdd(fluxSums, word, low);
-    uint above = uint(high) + (before > 0xffffffffu - low ? 1u : 0u);
+    return uvec2(uint(whole - high * 4294967296.0), uint(high));
+}
+
+// What is added to the high word, once the low one, which was `before`, has been added to.
+uint highAddend(uvec2 words, uint before) {
+    return words.y + (before > 0xffffffffu - words.x ? 1u : 0u);
+}
+
+// Adds to the word and the one above it.
+void sumAddTo(ivec3 word, float units) {
+    uvec2 words = wordsOfUnits(units);
+    if (words == uvec2(0u)) return;
+    uint above = highAddend(words, imageAtomicAdd(fluxSums, word, words.x));
     if (above > 0u) imageAtomicAdd(fluxSums, word + ivec3(0, 0, 1), above);
 }
 
