@@ -70,11 +70,8 @@ void depositOnBlocks(Patch whole, PatchOnScreen onto, int thread, float total) {
             ivec2 low = max(corner, onto.low);
             ivec2 high = min(corner + kBlockSide - 1, onto.high);
             for (int y = low.y; y <= high.y; ++y) {
-                for (int x = low.x; x <= high.x; ++x) {
-                    PlanePixel part = patchAt(onto, ivec2(x, y));
-                    if (part.stored > 0.0) deposit(whole, ivec2(x, y), part.stored / total);
-                    excess += part.stored - part.lit;
-                }
+                for (int x = low.x; x <= high.x; ++x)
+                    depositAt(whole, onto, ivec2(x, y), total, excess);
             }
         }
     }
