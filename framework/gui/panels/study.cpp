@@ -277,8 +277,7 @@ void drawResults(Bench& bench) {
 void drawStudy(Bench& bench) {
     chooseVariant(bench, "study");
     try {
-        const std::vector<TypedAxis> typed =
-            drawStudyAxes(bench, bench.variantOf(bench.editedIndex()));
+        const std::vector<TypedAxis> typed = drawStudyAxes(bench);
         drawTerms(bench);
         const Intended all = intended(bench, typed);
         drawPlan(bench, all);

@@ -30,8 +30,8 @@ Variable techniqueVariable(const Bench& bench, const Variant& variant) {
 }
 
 // What has an effect now, a stage's choice of node among it.
-std::vector<Variable> variablesOf(Bench& bench, const Variant& variant) {
-    std::vector<Variable> variables = {techniqueVariable(bench, variant)};
+std::vector<Variable> variablesOf(Bench& bench) {
+    std::vector<Variable> variables = {techniqueVariable(bench, bench.edited())};
     const std::shared_ptr<const VariantParameters> all = bench.editedParameters();
     for (const params::NamedField& named : all->fields) {
         const params::Field& field = named.field;
@@ -147,12 +147,12 @@ void drawMore(Bench& bench, const std::vector<Variable>& variables) {
 
 }  // namespace
 
-std::vector<TypedAxis> drawStudyAxes(Bench& bench, const Variant& variant) {
-    const std::vector<Variable> variables = variablesOf(bench, variant);
+std::vector<TypedAxis> drawStudyAxes(Bench& bench) {
+    const std::vector<Variable> variables = variablesOf(bench);
     std::vector<PanelState::VariedSetting>& axes = bench.panels.studyAxes;
     std::vector<TypedAxis> typed;
     for (std::size_t i = 0; i < axes.size();) {
-        TypedAxis axis = typedAxis(axes[i].key, axes[i].text, variant, bench.registry);
+        TypedAxis axis = typedAxis(axes[i].key, axes[i].text, bench.edited(), bench.registry);
         axis.hasEffect = find(variables, axes[i].key) != nullptr;
         if (drawAxis(bench, variables, axes[i], axis)) {
             axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(i));
