@@ -11,7 +11,8 @@
 namespace kaustik::gui {
 
 // Draws the panel's axes (PanelState::studyAxes) for the edited variant, with what is wrong with
-// their values, and gives what was typed. Throws ConfigError where the variant's settings make none.
+// their values, and gives what was typed. Throws ConfigError where the variant's settings make
+// none.
 [[nodiscard]] std::vector<TypedAxis> drawStudyAxes(Bench& bench);
 
 }  // namespace kaustik::gui
