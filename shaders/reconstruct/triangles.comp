@@ -4,7 +4,7 @@
 // go to a list of their own, as long as there is room.
 #include "include/photons/ledger_of_group.glsl"
 #include "reconstruct/triangles_patch_made.glsl"
-#include "reconstruct/triangles_patch_deposit.glsl"
+#include "reconstruct/triangles_cover.glsl"
 #ifdef LIGHT_SPREAD
 #include "reconstruct/triangles_spread.glsl"
 #endif
@@ -52,21 +52,21 @@ void coverPatch(Patch whole) {
             return;
         }
     }
-    PatchParts parts = PatchParts(0.0, 0.0, 0.0);
+    Found found = kNothingFound;
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);
-        addParts(onto, 0, 1, parts);
+        findParts(there, onto, 0, 1, found);
     }
     // The faces of a cube see in all directions.
-    PatchBalance balance = balanceOf(parts, viewCount > 1 || onto.isWhole);
+    PatchBalance balance = balanceOf(found.parts, viewCount > 1 || onto.isWhole);
     account(whole, balance);
     if (balance.total <= 0.0) depositNear(whole);
     if (balance.on <= 0.0) return;
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);
-        depositParts(there, onto, 0, 1, balance.total);
+        depositParts(there, onto, 0, 1, balance.total, found);
     }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: whether a photon and its neighbours to the right, above and between are
 // joined: light of one path that arrives on one surface, each where the others' beams say, so that
-// what lies between them arrives in between. One thread a photon.
+// what lies between them arrives in between. One thread an arrival.
 #include "include/photons/arriving.glsl"
+#include "reconstruct/triangles_arrivals.glsl"
 #include "reconstruct/triangles_neighbours.glsl"
 
 layout(std430) writeonly buffer CellJoins {
@@ -71,7 +72,6 @@ bool isJoined(uint index) {
 }
 
 void main() {
-    uint index = photonOfThread();
-    if (index >= photons.count) return;
-    cellJoins[index] = isJoined(index) ? 1u : 0u;
+    uint index;
+    if (arrivalOfThread(index)) cellJoins[index] = isJoined(index) ? 1u : 0u;
 }

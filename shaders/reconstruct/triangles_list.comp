@@ -2,9 +2,10 @@
 // reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. What lies between photons of two batches is listed in the one that has the photon
-// at the lower left. One thread a photon.
+// at the lower left. One thread an arrival.
 #include "include/photons/ledger_of_group.glsl"
 #include "include/photons/arriving.glsl"
+#include "reconstruct/triangles_arrivals.glsl"
 #include "reconstruct/triangles_crease.glsl"
 #include "reconstruct/triangles_patch_list.glsl"
 
@@ -94,11 +95,10 @@ void list(uint index, uint part, uint kind) {
 }
 
 void threadMain() {
-    uint index = photonOfThread();
-    if (index >= photons.count) return;
+    uint index;
+    if (!arrivalOfThread(index)) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     vec4 flux = texelFetch(hitFlux, texel, 0);
-    if (!hasArrivedFromAny(texel)) return;
     // What other maps alone list and book may be a corner of what this one does.
     float ofMap = arrivedShare(texel);
     PhotonOrigin origin = originAt(texel);

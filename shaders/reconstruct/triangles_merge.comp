@@ -2,7 +2,8 @@
 // reconstruct.triangles: small cells are merged, their power added (U08, section 5, its future
 // work): four squares of joined cells that together cover no more than so many texels are one. Step
 // 0 makes squares of single cells, steps 1 to kMaxMerges merge, the last one lists what is left.
-// One thread a photon.
+// One thread an arrival.
+#include "reconstruct/triangles_arrivals.glsl"
 #include "reconstruct/triangles_patch_made.glsl"
 
 layout(std430) readonly buffer CellJoins {
@@ -64,8 +65,8 @@ void merge(uint index) {
 }
 
 void main() {
-    uint index = photonOfThread();
-    if (index >= photons.count) return;
+    uint index;
+    if (!arrivalOfThread(index)) return;
     if (mergeStep == 0) {
         blocks[index] = blockOfCell(index);
     } else if (mergeStep <= int(kMaxMerges)) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: how much of the light of each square between four photons of the grid comes
-// where they are not joined. One thread a photon.
+// where they are not joined. One thread an arrival.
 #include "include/photons/arriving.glsl"
 #include "light_cells/squares.glsl"
+#include "reconstruct/triangles_arrivals.glsl"
 #include "reconstruct/triangles_neighbours.glsl"
 
 layout(std430) readonly buffer CellJoins {
@@ -16,10 +17,9 @@ layout(std430) buffer PartedShares {
 };
 
 void main() {
-    uint index = photonOfThread();
-    if (index >= photons.count) return;
+    uint index;
+    if (!arrivalOfThread(index)) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    if (!hasArrivedFromAny(texel)) return;
     PhotonOrigin origin = originAt(texel);
     float emitted = cellFlux[cellPlaceOf(origin, ivec2(0), 0u)];
     if (!(emitted > 0.0)) return;

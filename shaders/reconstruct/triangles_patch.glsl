@@ -231,8 +231,9 @@ void addSeen(inout PlanePixel pixel, vec2 place, vec2 seen, vec3 seenNormal, vec
 // whole, or, where a surface ends in the pixel, its quarters.
 struct PixelParts {
     int count;
-    float side;  // of each, px
+    float side;   // of each, px
     uint number;  // of the pixel among those at an edge, + 1
+    vec2 middle;  // depth and area of the receiver at the pixel's middle
 };
 
 #ifdef EDGE_SAMPLES
@@ -241,10 +242,12 @@ uniform sampler2D edgeSamples;
 
 PixelParts partsOf(ivec2 pixel) {
 #ifdef EDGE_SAMPLES
-    uint number = uint(texelFetch(edgeReceiver, pixel, 0).z);
-    if (number > 0u) return PixelParts(kEdgeSamples, 0.5, number);
+    vec3 seen = texelFetch(edgeReceiver, pixel, 0).xyz;
+    uint number = uint(seen.z);
+    return PixelParts(number > 0u ? kEdgeSamples : 1, number > 0u ? 0.5 : 1.0, number, seen.xy);
+#else
+    return PixelParts(1, 1.0, 0u, receiverAt(pixel));
 #endif
-    return PixelParts(1, 1.0, 0u);
 }
 
 // From the pixel's corner, px.
@@ -264,21 +267,20 @@ vec2 receiverOfPart(ivec2 pixel, PixelParts parts, int i, out vec2 place, out ve
     }
 #endif
     normal = receiverSurfaceAt(pixel).xyz;
-    return receiverAt(pixel);
+    return parts.middle;
 }
 
 // Of a plane that covers all of the pixel.
 PlanePixel seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, PatchSide side,
                        float tolerance) {
     PlanePixel made = PlanePixel(0.0, 0.0, 0.0, 0.0);
-    float area = receiverAt(pixel).y;
     PixelParts parts = partsOf(pixel);
     for (int i = 0; i < parts.count; ++i) {
         vec2 place;
         vec3 normal;
         vec2 seen = receiverOfPart(pixel, parts, i, place, normal);
         addSeen(made, vec2(pixel) + place, seen, normal, plane, point, isShaded, side, tolerance,
-                false, parts.side * parts.side, area);
+                false, parts.side * parts.side, parts.middle.y);
     }
     return made;
 }
@@ -309,30 +311,6 @@ float partOf(PatchTriangle triangle, vec2 corner, float side) {
 
 bool isAwayFrom(PatchOnScreen onto, PixelParts parts, vec2 place) {
     return parts.number > 0u && !contains(onto.first, place) && !contains(onto.second, place);
-}
-
-// The shares of a patch that a pixel has.
-PlanePixel patchAt(PatchOnScreen onto, ivec2 pixel) {
-    PlanePixel made = PlanePixel(0.0, 0.0, 0.0, 0.0);
-    float area = receiverAt(pixel).y;
-    PixelParts parts = partsOf(pixel);
-    for (int i = 0; i < parts.count; ++i) {
-        vec2 corner = cornerOfPart(parts, i);
-        float first = partOf(onto.first, vec2(pixel - onto.base) + corner, parts.side);
-        float second = partOf(onto.second, vec2(pixel - onto.base) + corner, parts.side);
-        if (first + second <= 0.0) continue;
-        bool isFirst = first >= second;
-        vec2 place;
-        vec3 normal;
-        vec2 seen = receiverOfPart(pixel, parts, i, place, normal);
-        addSeen(made, vec2(pixel) + place, seen, normal,
-                isFirst ? onto.first.plane : onto.second.plane,
-                isFirst ? onto.first.middle : onto.second.middle,
-                isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side, onto.tolerance,
-                isAwayFrom(onto, parts, vec2(pixel - onto.base) + place),
-                (first + second) * parts.side * parts.side, area);
-    }
-    return made;
 }
 
 struct PatchParts {
@@ -372,14 +350,4 @@ bool seenInFace(Patch whole, int face, out Patch there, out PatchOnScreen onto) 
 #else
     return true;
 #endif
-}
-
-// What every `step`th line from the first one on covers.
-void addParts(PatchOnScreen onto, int first, int step, inout PatchParts parts) {
-    PatchLines lines = linesOf(onto);
-    for (int line = lines.low.y + first; line <= lines.high.y; line += step) {
-        ivec2 span = spanOf(lines, line);
-        for (int place = span.x; place <= span.y; ++place)
-            addPart(parts, patchAt(onto, pixelOnLine(lines, line, place)));
-    }
 }

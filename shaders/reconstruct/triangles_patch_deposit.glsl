@@ -112,23 +112,3 @@ void depositNear(Patch whole) {
     bool seesFront = dot(whole.side.normal, viewDirection(middle)) < 0.0;
     ledgerAdd(seesFront ? kAccountEdgeOn : kAccountHidden, whole.flux);
 }
-
-// To one pixel, of shares that add up to `total`; `excess` grows by what it stores more than is lit.
-void depositAt(Patch whole, PatchOnScreen onto, ivec2 pixel, float total, inout float excess) {
-    PlanePixel part = patchAt(onto, pixel);
-    if (part.stored > 0.0) deposit(whole, pixel, part.stored / total);
-    excess += part.stored - part.lit;
-}
-
-// To all pixels on every `step`th line from the first one on that show the patch's surface, of shares
-// that add up to `total`.
-void depositParts(Patch whole, PatchOnScreen onto, int first, int step, float total) {
-    PatchLines lines = linesOf(onto);
-    float excess = 0.0;
-    for (int line = lines.low.y + first; line <= lines.high.y; line += step) {
-        ivec2 span = spanOf(lines, line);
-        for (int place = span.x; place <= span.y; ++place)
-            depositAt(whole, onto, pixelOnLine(lines, line, place), total, excess);
-    }
-    bookMapExcess(whole, excess / total);
-}

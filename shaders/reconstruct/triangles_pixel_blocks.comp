@@ -24,8 +24,9 @@ vec4 receiverOfBlock(ivec2 corner) {
     vec3 normals = vec3(0.0);
     for (int i = 0; i < kBlockSide * kBlockSide; ++i) {
         ivec2 pixel = corner + ivec2(i % kBlockSide, i / kBlockSide);
-        vec2 seen = receiverAt(pixel);
-        if (partsOf(pixel).count > 1 || (seen.x == 0.0) != (depth == 0.0)) return kSeveralSurfaces;
+        PixelParts parts = partsOf(pixel);
+        vec2 seen = parts.middle;
+        if (parts.count > 1 || (seen.x == 0.0) != (depth == 0.0)) return kSeveralSurfaces;
         if (depth == 0.0) continue;
         vec3 own = receiverSurfaceAt(pixel).xyz;
         bool isSame = dot(own, normal) >= kMinBlockCosine &&

@@ -31,24 +31,6 @@ ivec2 blockSpanOf(PatchLines lines, int line) {
     return ivec2(max(pixels.x, lines.low.x), min(pixels.y, lines.high.x)) / kBlockSide;
 }
 
-int blockOnLine(PatchLines lines, int line, int place, out ivec2 corner) {
-    ivec2 block = pixelOnLine(lines, line, place);
-    corner = kBlockSide * block;
-    return block.y * blocksOfView().x + block.x;
-}
-
-// The shares of a patch that a block with one surface has, as patchAt() has those of a pixel.
-PlanePixel patchAtBlock(PatchOnScreen onto, ivec2 corner, vec4 receiver) {
-    PlanePixel made = PlanePixel(0.0, 0.0, 0.0, 0.0);
-    const float side = float(kBlockSide);
-    float first = partOf(onto.first, vec2(corner - onto.base), side);
-    float second = partOf(onto.second, vec2(corner - onto.base), side);
-    if (first + second <= 0.0) return made;
-    bool isFirst = first >= second;
-    addSeen(made, vec2(corner) + 0.5 * side, receiver.xy, unpackUnitVector(receiver.zw),
-            isFirst ? onto.first.plane : onto.second.plane,
-            isFirst ? onto.first.middle : onto.second.middle,
-            isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side, onto.tolerance, false,
-            (first + second) * side * side, receiver.y);
-    return made;
+int blockAt(ivec2 pixel) {
+    return pixel.y / kBlockSide * blocksOfView().x + pixel.x / kBlockSide;
 }

@@ -57,7 +57,8 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
             gl::Command command = context.compute("reconstruct/edges.comp");
             bvh.bindTo(command, inputs);
             command.set("edgeCapacity", static_cast<unsigned>(capacity));
-            pass.pixels.dispatchOver(context, std::move(command));
+            pass.pixels.close(context);
+            pass.pixels.dispatchOver(std::move(command));
         });
     frame.reportLimit(
         {"reconstruct.edges",

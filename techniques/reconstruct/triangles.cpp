@@ -18,9 +18,9 @@
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/reconstruct/edge_samples.h"
 #include "techniques/reconstruct/triangles.h"
+#include "techniques/reconstruct/triangles_joins.h"
 #include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
-#include "techniques/thread_lists/thread_list.h"
 
 namespace kaustik {
 namespace {
@@ -86,8 +86,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
     }
     struct Data {
         Stored stored;
-        graph::Buffer<std::uint32_t> photonOfCell;
-        graph::Buffer<std::uint32_t> joins;
+        TriangleJoins joins;
         graph::Buffer<VertexShares> shares;
         graph::Buffer<std::uint32_t> patches;  // counts, and a list
         graph::Buffer<WidePatch> wide;
@@ -128,9 +127,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                                                  count));
                 setup.bypass(buffer, {0, 0, 0, 0});
             };
-            create(data.photonOfCell, "CellPhotons", "photon_of_cell",
-                   std::max<std::size_t>(hits.incoming.cells.places(), 1));
-            create(data.joins, "CellJoins", "joins", capacity);
+            data.joins = TriangleJoins::create(setup, store, hits);
             create(data.shares, "PhotonShares", "shares", capacity);
             create(data.patches, "Patches", "patches",
                    kPatchCountWords + (hits.incoming.hasLightSpread() ? 10 : 5) * capacity);
@@ -149,7 +146,6 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
         [params, sets, store, wideCapacity, pixelBlocks, list = hits.incoming](
             const Data& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
-            context.buffer(data.photonOfCell).clear();
             if (!context.isRepeated()) context.buffer(data.clamped).clear();
             const auto shader = [&](const char* name) {
                 gl::Command command = context.compute(name);
@@ -168,19 +164,15 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                     .dispatch(1);
             };
             countGroups(Listed::none);
-            for (const char* name :
-                 {"reconstruct/triangles_cells.comp", "reconstruct/triangles_join.comp"}) {
-                gl::Command command = shaderOfPhotons(name);
-                dispatchOver(command, list);
-            }
+            data.joins.find(context, list, shaderOfPhotons);
             const int listCapacity = list.capacity();
             gl::Command lists = shaderOfPhotons("reconstruct/triangles_list.comp");
             lists.set("listCapacity", listCapacity);
-            dispatchOver(lists, list);
+            data.joins.dispatchOverArrivals(std::move(lists));
             for (int step = 0; params.merge > 0.0f && step <= kMaxMerges + 1; ++step) {
                 gl::Command command = shaderOfPhotons("reconstruct/triangles_merge.comp");
                 command.set("mergeStep", step);
-                dispatchOver(command, list);
+                data.joins.dispatchOverArrivals(std::move(command));
             }
             const auto dispatchOverPatches = [&](gl::Command command, std::size_t number) {
                 setDeposit(command, sets);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "techniques/reconstruct/triangles.h"
-#include "techniques/stores/stores.h"
+#include "techniques/reconstruct/triangles_joins.h"
 
 namespace kaustik {
 namespace {
@@ -17,8 +17,7 @@ Shares addPartedIn(FrameBuilder& frame, const Store& store, const Hits& hits,
     const TrianglesParams params = trianglesForViews(
         frame.params<TrianglesParams>("reconstruct.triangles"), *store.receivers.views);
     struct Data {
-        Shares photonOfCell;
-        Shares joins;
+        TriangleJoins joins;
         Shares parted;
     };
     return frame
@@ -29,30 +28,19 @@ Shares addPartedIn(FrameBuilder& frame, const Store& store, const Hits& hits,
                 hits.incoming.sample(setup);
                 setup.sample("cellExtents", hits.incoming.extents);
                 setup.define("CELL_EXTENTS");
-                const auto create = [&](const char* block, const std::string& name,
-                                        std::size_t count) {
-                    return setup.storage(
-                        block,
-                        setup.createBuffer<std::uint32_t>(
-                            "triangles." + name + store.suffix + hits.incoming.suffix, count));
-                };
-                data.photonOfCell = create("CellPhotons", "photon_of_cell",
-                                           std::max<std::size_t>(hits.incoming.cells.places(), 1));
-                data.joins = create("CellJoins", "joins",
-                                    static_cast<std::size_t>(hits.incoming.capacity()));
+                data.joins = TriangleJoins::create(setup, store, hits);
                 setup.storage("CellFlux", cellFlux);
                 data.parted = setup.storage("PartedShares", setup.write(before));
             },
             [params, store, list = hits.incoming](const Data& data, gl::PassContext& context) {
-                context.buffer(data.photonOfCell).clear();
-                for (const char* name :
-                     {"reconstruct/triangles_cells.comp", "reconstruct/triangles_join.comp",
-                      "reconstruct/triangles_parted.comp"}) {
+                const auto shader = [&](const char* name) {
                     gl::Command command = context.compute(name);
                     bindStore(command, store).params("reconstruct.triangles", params);
                     setCells(command, list.cells);
-                    dispatchOver(command, list);
-                }
+                    return command;
+                };
+                data.joins.find(context, list, shader);
+                data.joins.dispatchOverArrivals(shader("reconstruct/triangles_parted.comp"));
             })
         .parted;
 }

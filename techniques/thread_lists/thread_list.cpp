@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/thread_lists/thread_list.h"
 
-#include <utility>
-
 #include "framework/gl/executor.h"
 
 namespace kaustik {
@@ -32,8 +30,11 @@ void ThreadList::clear(gl::PassContext& context) const {
     countGroups(context, 0);
 }
 
-void ThreadList::dispatchOver(gl::PassContext& context, gl::Command command) const {
+void ThreadList::close(gl::PassContext& context) const {
     countGroups(context, 1);
+}
+
+void ThreadList::dispatchOver(gl::Command command) const {
     command.dispatchIndirect(list_, offsetof(ThreadListHeader, groupsX));
 }
 

@@ -25,8 +25,9 @@ class ThreadList {
                              std::size_t capacity);
     // Nothing is listed.
     void clear(gl::PassContext& context) const;
-    // All is listed: `command` may be dispatched.
-    void dispatchOver(gl::PassContext& context, gl::Command command) const;
+    // All is listed: commands may be dispatched.
+    void close(gl::PassContext& context) const;
+    void dispatchOver(gl::Command command) const;
 
     // What holds it, to be read back: its header first.
     [[nodiscard]] const graph::Buffer<std::uint32_t>& buffer() const { return list_; }

@@ -88,7 +88,8 @@ View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geomet
                         command.params("view.bvh", params).set("lightCount", inputs.needs.lights);
                         if (pass.view.isGlossy) command.define("GLOSSY_RECEIVERS");
                         bvh.bindTo(command, inputs);
-                        pass.pixels.dispatchOver(context, std::move(command));
+                        pass.pixels.close(context);
+                        pass.pixels.dispatchOver(std::move(command));
                     };
                     lookBySamples(inputs, context, pass.view, look);
                 })
