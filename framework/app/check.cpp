@@ -106,6 +106,7 @@ void checkCommand(const Registry& registry) {
                device.maxTextureLayers);
     fmt::print("largest viewport  {0}x{0}\n", device.maxViewport);
     fmt::print("storage block     {} MiB\n", device.maxStorageBlockBytes >> 20);
+    fmt::print("buffer texture    {} texels\n", device.maxBufferTexels);
     if (device.availableBytes > 0) {
         fmt::print("free memory       {} MiB\n", device.availableBytes >> 20);
     }

@@ -83,6 +83,19 @@ Command& Command::storage(const std::string& block, const Buffer& buffer) {
     return *this;
 }
 
+Command& Command::texels(const std::string& name, const graph::ResourceRef& handle,
+                         graph::Format format) {
+    const Access access = context_.access(handle, Use::fetch);
+    const Buffer& buffer = context_.bufferOf(access);
+    textures_.push_back({name, buffer.texels(format), access, offers_, buffer.id()});
+    return *this;
+}
+
+Command& Command::texels(const std::string& name, const Buffer& buffer, graph::Format format) {
+    textures_.push_back({name, buffer.texels(format), {}, offers_, buffer.id()});
+    return *this;
+}
+
 Command& Command::offer(const std::string& block, const Buffer& buffer) {
     uniformBlocks_.push_back({block, buffer.id(), {}, true});
     return *this;

@@ -54,6 +54,11 @@ class Command {
     Command& image(const std::string& name, const graph::ResourceRef& handle);
     Command& storage(const std::string& block, const graph::ResourceRef& handle);
     Command& storage(const std::string& block, const Buffer& buffer);
+    // A samplerBuffer's: a buffer that is read alone, four words at a time. What a software
+    // rasteriser fetches so takes it a third of the time that words of a block take.
+    Command& texels(const std::string& name, const graph::ResourceRef& handle,
+                    graph::Format format);
+    Command& texels(const std::string& name, const Buffer& buffer, graph::Format format);
     Command& uniforms(const std::string& block, const Buffer& buffer);
 
     // What shaders use if they declare it, in place of what is bound to all.
@@ -113,6 +118,7 @@ class Command {
         GLuint id;
         std::optional<Access> access;
         bool isOffered = false;  // by the pass or to all: a program need not declare it
+        GLuint buffer = 0;       // of a texture whose texels are a buffer's
     };
     struct BoundImage {
         std::string name;

@@ -69,7 +69,11 @@ Program& Command::bind() {
         if (location < 0) continue;
         if (bound.access) accesses.push_back(*bound.access);
         glBindTextureUnit(unit, bound.id);
-        if (counter != nullptr) counter->bindTexture(bound.name, bound.id);
+        if (counter != nullptr && bound.buffer != 0) {
+            counter->bindBuffer(bound.name, bound.buffer);
+        } else if (counter != nullptr) {
+            counter->bindTexture(bound.name, bound.id);
+        }
         glProgramUniform1i(program.id(), location, static_cast<GLint>(unit++));
     }
     unit = 0;

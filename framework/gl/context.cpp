@@ -390,6 +390,7 @@ void Context::readInfo() {
     GLint64 block = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
     info_.maxStorageBlockBytes = block;
+    info_.maxBufferTexels = integer(GL_MAX_TEXTURE_BUFFER_SIZE);
     // OpenGL 4.5 promises no storage blocks outside of compute shaders; transforms are read there.
     if (integer(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS) < 4) {
         info_.missing.emplace_back("storage blocks in vertex shaders");

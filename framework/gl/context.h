@@ -24,6 +24,7 @@ struct DeviceInfo {
     int maxViewport = 0;
     int maxTextureLayers = 0;
     long long maxStorageBlockBytes = 0;
+    long long maxBufferTexels = 0;
     // Free at the start; 0 where the device does not say. A software rasteriser uses the machine's,
     // which the system would promise without having.
     long long availableBytes = 0;

@@ -64,6 +64,13 @@ ivec2 countedTexel(int what, int use, ivec2 texel) {{
     return texel;
 }}
 
+// Of a buffer's texels.
+int countedTexel(int what, int use, int texel) {{
+    if (uint(texel) * {piece}u < countedShape[what].x)
+        countedAccess(what, use, uint(texel), 1u, {piece}u);
+    return texel;
+}}
+
 vec3 countedSample(int what, vec3 place) {{
     uvec4 shape = countedShape[what];
     vec3 texel = vec3(fract(place.xy) * vec2(shape.xy), place.z + 0.5);
@@ -195,7 +202,7 @@ class Counting {
   private:
     void findDeclarations() {
         static const std::regex opaque(
-            R"rx(\buniform\s+(?:\w+\s+)*?[iu]?(?:sampler|image)2D(?:Array)?\s+(\w+)\s*;)rx");
+            R"rx(\buniform\s+(?:\w+\s+)*?[iu]?(?:(?:sampler|image)2D(?:Array)?|samplerBuffer)\s+(\w+)\s*;)rx");
         for (std::sregex_iterator i(text_.begin(), text_.end(), opaque), end; i != end; ++i)
             opaque_.insert((*i)[1].str());
         for (const auto& [name, variable] : layout_)

@@ -196,6 +196,17 @@ void Buffer::copyTo(const Buffer& target) const {
     glCopyNamedBufferSubData(id(), target.id(), 0, 0, static_cast<GLsizeiptr>(bytes_));
 }
 
+GLuint Buffer::texels(graph::Format format) const {
+    Object<detail::deleteTexture>& view = texels_[format];
+    if (!view.valid()) {
+        GLuint id = 0;
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+        view = Object<detail::deleteTexture>(id);
+        glTextureBuffer(id, formatInfo(format).internalFormat, object_.id());
+    }
+    return view.id();
+}
+
 void Buffer::readBytes(void* destination) const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     if (bytes_ > 0) {

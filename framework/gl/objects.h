@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,6 +104,8 @@ class Buffer {
     void clear() const;
     // Copies everything to a buffer that is at least as large.
     void copyTo(const Buffer& target) const;
+    // A buffer texture of it: shaders fetch four words at once from one of that many.
+    [[nodiscard]] GLuint texels(graph::Format format) const;
     // Waits for the device.
     template <class T>
     [[nodiscard]] std::vector<T> read() const {
@@ -115,6 +118,7 @@ class Buffer {
     void readBytes(void* destination) const;
     Object<detail::deleteBuffer> object_;
     std::size_t bytes_ = 0;
+    mutable std::map<graph::Format, Object<detail::deleteTexture>> texels_;  // made when asked for
 };
 
 [[nodiscard]] FramebufferObject makeFramebuffer();

@@ -45,11 +45,15 @@ void addObject(const scene::Scene& scene, std::uint32_t number, const glm::dmat4
 void requireRoom(const Triangles& triangles) {
     GLint64 allowed = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &allowed);
+    // Rays read it as a texture of the buffer's words by fours.
+    GLint64 texels = 0;
+    glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+    allowed = std::min<GLint64>(allowed, texels * static_cast<GLint64>(sizeof(glm::vec4)));
     const std::size_t bytes = triangles.corners.size() * sizeof(VertexData);
     constexpr std::size_t kNumbers = std::size_t{1} << transport::kBvhLeafShift;
     if (bytes <= static_cast<std::size_t>(allowed) && triangles.sources.size() <= kNumbers) return;
     throw ConfigError(fmt::format(
-        "A hierarchy over {} triangles takes {} MiB in one block, and this device allows {}: take "
+        "A hierarchy over {} triangles takes {} MiB in one buffer, and this device allows {}: take "
         "trace=hierarchical, view=refraction and shadow=map.",
         triangles.sources.size(), bytes >> 20, allowed >> 20));
 }

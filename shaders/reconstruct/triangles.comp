@@ -52,7 +52,7 @@ void coverPatch(Patch whole) {
             return;
         }
     }
-    Found found = kNothingFound;
+    Found found = nothingFound();
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);
@@ -63,6 +63,7 @@ void coverPatch(Patch whole) {
     account(whole, balance);
     if (balance.total <= 0.0) depositNear(whole);
     if (balance.on <= 0.0) return;
+    bookMapExcess(whole, found.excess / balance.total);
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);

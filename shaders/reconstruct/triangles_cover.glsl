@@ -4,20 +4,27 @@
 #include "reconstruct/triangles_patch_deposit.glsl"
 #include "reconstruct/triangles_walk.glsl"
 
-// By one thread.
-struct Found {
-    PatchParts parts;
-    float excess;  // of what is stored over what is lit
-    uint kept;     // places; more than kMaxKept: not all of them
-};
-const Found kNothingFound = Found(PatchParts(0.0, 0.0, 0.0), 0.0, 0u);
-
-const uint kMaxKept = 32u;
 #ifndef MANY_VIEWS
+const uint kMaxKept = 24u;
 shared uint keptPlaces[64u * kMaxKept];
 shared float keptShares[64u * kMaxKept];
 uint keptAt(uint number) { return 64u * number + gl_LocalInvocationIndex; }
 #endif
+
+// By one thread.
+struct Found {
+    PatchParts parts;
+    float excess;  // of what is stored over what is lit
+    uint kept;     // places
+    Walk rest;     // where it was when there was no more room
+};
+Found nothingFound() {
+    Found found;
+    found.parts = PatchParts(0.0, 0.0, 0.0);
+    found.excess = 0.0;
+    found.kept = 0u;
+    return found;
+}
 
 // A pixel, or a square of pixels.
 const uint kBlockPlace = 0x80000000u;
@@ -28,14 +35,13 @@ uint placeOf(Walk walk) {
     return uint(walk.pixel.y) << 16u | uint(walk.pixel.x);
 }
 
-void keep(inout Found found, uint place, float stored) {
+void keep(inout Found found, Walk walk, float stored) {
 #ifndef MANY_VIEWS
-    if (stored <= 0.0) return;
-    if (found.kept < kMaxKept) {
-        keptPlaces[keptAt(found.kept)] = place;
-        keptShares[keptAt(found.kept)] = stored;
-    }
+    if (stored <= 0.0 || found.kept == kMaxKept) return;
+    keptPlaces[keptAt(found.kept)] = placeOf(walk);
+    keptShares[keptAt(found.kept)] = stored;
     ++found.kept;
+    if (found.kept == kMaxKept) found.rest = walk;
 #endif
 }
 
@@ -43,14 +49,18 @@ void keep(inout Found found, uint place, float stored) {
 void findParts(Patch whole, PatchOnScreen onto, int first, int step, inout Found found) {
     Walk walk = walkOver(whole, onto, first, step);
     PlanePixel sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
-    while (goOn(walk, onto)) {
+    bool isThere = goOn(walk, onto);
+    do {
+        if (!isThere) break;
         addPlace(onto, walk, sum);
-        if (!isAtLastPart(walk)) continue;
-        addPart(found.parts, sum);
-        found.excess += sum.stored - sum.lit;
-        keep(found, placeOf(walk), sum.stored);
-        sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
-    }
+        if (isAtLastPart(walk)) {
+            addPart(found.parts, sum);
+            found.excess += sum.stored - sum.lit;
+            keep(found, walk, sum.stored);
+            sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
+        }
+        isThere = goOn(walk, onto);
+    } while (isThere);
 }
 
 #ifdef WALKS_BLOCKS
@@ -77,23 +87,25 @@ void depositAt(Patch whole, uint place, float share) {
 
 // Of shares that add up to `total`.
 void depositParts(Patch whole, PatchOnScreen onto, int first, int step, float total, Found found) {
-#ifndef MANY_VIEWS
-    if (found.kept <= kMaxKept) {
-        for (uint i = 0u; i < found.kept; ++i)
-            depositAt(whole, keptPlaces[keptAt(i)], keptShares[keptAt(i)] / total);
-        bookMapExcess(whole, found.excess / total);
-        return;
-    }
-#endif
-    float excess = 0.0;
+#ifdef MANY_VIEWS
     Walk walk = walkOver(whole, onto, first, step);
+#else
+    uint i = 0u;
+    do {
+        if (i < found.kept) depositAt(whole, keptPlaces[keptAt(i)], keptShares[keptAt(i)] / total);
+    } while (++i < found.kept);
+    if (found.kept < kMaxKept) return;
+    Walk walk = found.rest;
+#endif
     PlanePixel sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
-    while (goOn(walk, onto)) {
+    bool isThere = goOn(walk, onto);
+    do {
+        if (!isThere) break;
         addPlace(onto, walk, sum);
-        if (!isAtLastPart(walk)) continue;
-        if (sum.stored > 0.0) depositAt(whole, placeOf(walk), sum.stored / total);
-        excess += sum.stored - sum.lit;
-        sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
-    }
-    bookMapExcess(whole, excess / total);
+        if (isAtLastPart(walk)) {
+            if (sum.stored > 0.0) depositAt(whole, placeOf(walk), sum.stored / total);
+            sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
+        }
+        isThere = goOn(walk, onto);
+    } while (isThere);
 }

@@ -42,20 +42,18 @@ void main() {
     const int kPixels = kBlockSide * kBlockSide;
     float perArea = 65536.0 / (float(kPixels) * pixelBlocks[index].receiver.y);
     float area = 0.0;
-    uint begin = 0u;
+    uvec2 given[3] = uvec2[3](uvec2(0u), uvec2(0u), uvec2(0u));
     for (int i = 0; i < kPixels; ++i) {
         ivec2 pixel = corner + ivec2(i % kBlockSide, i / kBlockSide);
         area += receiverAt(pixel).y;
         uint end = i == kPixels - 1 ? 65536u : min(uint(area * perArea + 0.5), 65536u);
         for (int channel = 0; channel < 3; ++channel) {
-            uvec2 sum = uvec2(sums[2 * channel], sums[2 * channel + 1]);
-            uvec2 from = partOfSum(sum, begin);
-            uvec2 to = partOfSum(sum, end);
+            uvec2 upToHere = partOfSum(uvec2(sums[2 * channel], sums[2 * channel + 1]), end);
             uint borrow;
-            uint low = usubBorrow(to.x, from.x, borrow);
+            uint low = usubBorrow(upToHere.x, given[channel].x, borrow);
             addWords(ivec3(pixel, int(kFluxWords) * viewIndex + 2 * channel),
-                     uvec2(low, to.y - from.y - borrow));
+                     uvec2(low, upToHere.y - given[channel].y - borrow));
+            given[channel] = upToHere;
         }
-        begin = end;
     }
 }

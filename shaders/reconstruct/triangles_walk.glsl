@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The places that a patch may cover, one after another: pixels on its lines, of those where a surface
 // ends each quarter, or (WALKS_BLOCKS) squares of pixels. One loop over all of them and not one within
-// another, since threads that run side by side wait in each for whichever goes on the longest.
+// another, since threads that run side by side wait in each for whichever goes on the longest; and it
+// asks at its end whether there is more, since a software rasteriser can't leave it before.
 #include "reconstruct/triangles_patch.glsl"
 #ifdef WALKS_BLOCKS
 #include "reconstruct/triangles_pixel_blocks.glsl"
@@ -90,12 +91,14 @@ bool goOn(inout Walk walk, PatchOnScreen onto) {
     if (goOnInBlock(walk, onto)) return true;
 #endif
     ++walk.place;
-    while (walk.place > walk.span.y) {
-        walk.line += walk.step;
-        if (walk.line > walk.last) return false;
-        walk.span = spanOf(walk);
-        walk.place = walk.span.x;
-    }
+    do {
+        if (walk.place > walk.span.y) {
+            walk.line += walk.step;
+            if (walk.line > walk.last) return false;
+            walk.span = spanOf(walk);
+            walk.place = walk.span.x;
+        }
+    } while (walk.place > walk.span.y);
     walk.pixel = pixelOnLine(walk.lines, walk.line, walk.place);
 #ifdef WALKS_BLOCKS
     if (walk.areBlocks) {

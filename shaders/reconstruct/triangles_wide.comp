@@ -20,7 +20,7 @@ void main() {
     Patch whole = unpackedPatch(widePatchList[isHere ? index : 0u]);
     Patch there;
     PatchOnScreen onto;
-    Found found = kNothingFound;
+    Found found = nothingFound();
     int thread = int(gl_LocalInvocationIndex) % kThreads;
     for (int face = 0; face < viewCount && isHere; ++face) {
         if (seenInFace(whole, face, there, onto)) findParts(there, onto, thread, kThreads, found);
@@ -42,6 +42,7 @@ void main() {
         if (balance.total <= 0.0) depositNear(whole);
     }
     if (balance.on <= 0.0) return;
+    bookMapExcess(whole, found.excess / balance.total);
     for (int face = 0; face < viewCount; ++face) {
         if (seenInFace(whole, face, there, onto))
             depositParts(there, onto, thread, kThreads, balance.total, found);

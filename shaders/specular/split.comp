@@ -24,34 +24,38 @@ void threadMain() {
     Branches branches = branchesOf(before, hit);
     bool areBoth = branches.transmitted.fate == kFateInFlight &&
                    branches.reflected.fate == kFateInFlight;
+    bool isParted = false;
+    bool isReflected = branches.transmitted.fate != kFateInFlight;
 #ifdef BRANCHES
     uint number = branchNumberOf(origin);
     uint room = branchRoomOf(origin);
     origin.branch = branchOf(number, room);
-    if (isParting()) {
+    uint forReflected = 0u;
+    isParted = isParting();
+    if (isParted) {
         float reflected = sumOf(branches.reflected.fluxWatts);
         float all = sumOf(branches.transmitted.fluxWatts) + reflected;
-        uint forReflected = reflectedRoom(room, all > 0.0 ? reflected / all : 0.0);
-        PhotonOrigin first = nextPhotonOrigin(origin, index, false);
-        PhotonOrigin second = nextPhotonOrigin(origin, index, true);
-        first.branch = branchOf(number, room - forReflected);
-        second.branch = branchOf(number + room - forReflected, forReflected);
-        emitNext(slot, texel, before, hit, branches.transmitted, first);
-        emitNext(slot + 1u, texel, before, hit, branches.reflected, second);
-        return;
+        forReflected = reflectedRoom(room, all > 0.0 ? reflected / all : 0.0);
     }
 #endif
-    bool isReflected = branches.transmitted.fate != kFateInFlight;
-    if (areBoth) {
+    if (areBoth && !isParted) {
         isReflected =
             sumOf(branches.reflected.fluxWatts) > sumOf(branches.transmitted.fluxWatts);
         ledgerAdd(kAccountUntracedBranch, isReflected ? branches.transmitted.fluxWatts
                                                       : branches.reflected.fluxWatts);
     }
-    if (isReflected) {
-        emitNext(slot, texel, before, hit, branches.reflected, nextPhotonOrigin(origin, index, true));
-    } else {
-        emitNext(slot, texel, before, hit, branches.transmitted,
-                 nextPhotonOrigin(origin, index, false));
-    }
+    // In a loop and not one after the other, which all threads would wait for.
+    uint i = 0u;
+    do {
+        bool isSecond = isParted ? i == 1u : isReflected;
+        PhotonOrigin next = nextPhotonOrigin(origin, index, isSecond);
+#ifdef BRANCHES
+        if (isParted) {
+            next.branch = isSecond ? branchOf(number + room - forReflected, forReflected)
+                                   : branchOf(number, room - forReflected);
+        }
+#endif
+        emitNext(slot + i, texel, before, hit,
+                 isSecond ? branches.reflected : branches.transmitted, next);
+    } while (++i < (isParted ? 2u : 1u));
 }

@@ -81,7 +81,7 @@ Seen seenBy(EyePath path) {
 vec3 albedoOfSeen(Seen seen, float pathMeters) {
     VertexData corners[3];
     for (uint i = 0u; i < 3u; ++i)
-        corners[i] = bvhCorners[3u * seen.hit.triangle + i];
+        corners[i] = bvhCornerAt(seen.hit.triangle, i);
     vec3 weights = weightsOfHit(seen.ray, seen.hit.triangle);
     vec2 uv = weights.x * vec2(corners[0].u, corners[0].v) +
               weights.y * vec2(corners[1].u, corners[1].v) +

@@ -16,6 +16,7 @@
 #include "techniques/light_cells/squares.h"
 #include "techniques/photon_lists/emitted.h"
 #include "techniques/raster_views/light_sight.h"
+#include "techniques/thread_lists/thread_list.h"
 
 namespace kaustik {
 namespace {
@@ -84,6 +85,7 @@ struct GridEmission {
     graph::Texture<SightOfLight> sight;
     graph::Texture<DepthBuffer> depth;
     Geometry geometry;
+    ThreadList cells;  // that see something specular; of squares all are taken
 };
 
 void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
@@ -99,10 +101,22 @@ void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEm
     inputs.gpuScene.draw(command, context, data.geometry, *seen.instances, render::DrawSet::all);
 }
 
-// Of the cells of a light in a band: shaders that include include/photons/light_grid.glsl.
-void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const GridEmission& data,
-                       const LightSight& seen, const GridRows& rows, const Samples& samples,
-                       int band, int light, int firstOfLight) {
+// The cells of a light in a band.
+struct CellsOfBand {
+    const LightSight& seen;
+    const GridRows& rows;
+    const Samples& samples;
+    int band;
+    int light;
+    [[nodiscard]] int firstOfLight() const {
+        return (light - samples.firstLight) * rows.cells.rows;
+    }
+};
+
+// For shaders that include include/photons/light_grid.glsl.
+void bindCells(const FrameInputs& inputs, gl::Command& command, const GridEmission& data,
+               const CellsOfBand& of) {
+    const auto& [seen, rows, samples, band, light] = of;
     command.texture("sight", data.sight)
         .storage("Instances", inputs.instances.instances)
         .set("lightFromEye", render::between(inputs.view, seen.view))
@@ -113,7 +127,23 @@ void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const Gri
         .set("lightIndex", light)
         .set("cellsHere", glm::ivec2(rows.grid.width, rows.rowsIn(band)))
         .set("firstRow", rows.firstIn(band))
-        .offer("firstOfLight", firstOfLight + rows.firstIn(band) - rows.cells.firstRow);
+        .offer("firstOfLight", of.firstOfLight() + rows.firstIn(band) - rows.cells.firstRow);
+}
+
+void listCells(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
+               const CellsOfBand& of) {
+    data.cells.clear(context);
+    gl::Command command = context.compute("emit/grid_list.comp");
+    bindCells(inputs, command, data, of);
+    command.storage("CellsToEmit", data.cells.buffer())
+        .dispatchOver(of.rows.grid.width, 8, of.rows.rowsIn(of.band), 8);
+    data.cells.close(context);
+}
+
+void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const GridEmission& data,
+                       const CellsOfBand& of) {
+    const Samples& samples = of.samples;
+    bindCells(inputs, command, data, of);
     inputs.gpuScene.bindTriangles(command, data.geometry);
     if (samples.cells.valid()) {
         const SquareRoom room = squareRoomOf(samples);
@@ -126,15 +156,16 @@ void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const Gri
         dispatchOver(command, data.hits.incoming);
         return;
     }
-    command.dispatchOver(rows.grid.width, 8, rows.rowsIn(band), 8);
+    command.define("LISTED_CELLS").texels("listedCells", data.cells.buffer(), Format::r32ui);
+    data.cells.dispatchOver(std::move(command));
 }
 
 void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
-              const LightSight& seen, const GridRows& rows, const Samples& samples, int band,
-              int light) {
+              const CellsOfBand& of) {
+    const auto& [seen, rows, samples, band, light] = of;
     const Photons& photons = data.hits.incoming;
-    const int firstOfLight = (light - samples.firstLight) * rows.cells.rows;
     drawSight(inputs, context, data, seen, rows, band);
+    if (!samples.cells.valid()) listCells(inputs, context, data, of);
     gl::Command emission = context.compute("emit/grid.comp");
     emission.set("ownRows", glm::ivec2(rows.cells.firstOwn, rows.cells.endOwn));
     if (samples.refined.valid() && !samples.cells.valid()) {
@@ -145,8 +176,7 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
     }
     if (photons.extents.valid())
         emission.define("CELL_EXTENTS").image("nextExtents", photons.extents);
-    dispatchOverCells(inputs, std::move(emission), data, seen, rows, samples, band, light,
-                      firstOfLight);
+    dispatchOverCells(inputs, std::move(emission), data, of);
     if (!photons.hasBeams()) return;
     gl::Command beams = context.compute("emit/grid_beams.comp");
     beams.texture("photonPosition", photons.position)
@@ -154,8 +184,7 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
         .texture("photonFlux", photons.flux)
         .texture("startSurface", data.hits.surface)
         .set("lightToEye", glm::mat3(render::between(seen.view, inputs.view)));
-    dispatchOverCells(inputs, std::move(beams), data, seen, rows, samples, band, light,
-                      firstOfLight);
+    dispatchOverCells(inputs, std::move(beams), data, of);
 }
 
 Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces surfaces,
@@ -216,19 +245,28 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
                 data.depth = setup.create<DepthBuffer>("emit.depth_buffer" + samples.suffix,
                                                        grid.width * rows.subcells,
                                                        rows.seen() * rows.subcells);
+                if (isOfSquares) return;
+                data.cells = ThreadList::create(
+                    setup, "CellsToEmit", "emit.cells" + samples.suffix,
+                    static_cast<std::size_t>(grid.width) *
+                        static_cast<std::size_t>(std::min(rows.bandRows(), rows.cells.rows)));
             },
             [&inputs = frame.inputs(), grids, samples, rows](const GridEmission& data,
                                                              gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 beginEmission(context, photons, samples);
+                if (grids->empty() || !samples.cells.valid()) {
+                    clearEmitted(context, data.hits);
+                    if (photons.extents.valid())
+                        context.texture(photons.extents).clear({0, 0, 0, 0});
+                }
                 const int end = grids->empty() ? 0 : samples.firstLight + samples.lights;
                 for (int light = samples.firstLight; light < end; ++light) {
                     const LightSight& seen =
                         (*grids)[static_cast<std::size_t>(light) % grids->size()];
                     for (int band = rows.firstBand(); band < rows.endBand(); ++band)
-                        emitFrom(inputs, context, data, seen, rows, samples, band, light);
+                        emitFrom(inputs, context, data, {seen, rows, samples, band, light});
                 }
-                if (grids->empty()) clearEmitted(context, data.hits);
             })
         .hits;
 }

@@ -84,11 +84,11 @@ void BvhOfFrame::read(graph::PassSetup& setup) const {
 
 void BvhOfFrame::bindTo(gl::Command& command, const FrameInputs& inputs) const {
     const render::SceneBvh& still = inputs.gpuScene.bvh();
-    if (nodes.valid()) {
-        command.storage("BvhNodes", nodes).storage("BvhCorners", corners);
-    } else {
-        command.storage("BvhNodes", still.nodes()).storage("BvhCorners", still.corners());
-    }
+    const auto bind = [&](const auto& nodesNow, const auto& cornersNow) {
+        command.texels("bvhNodes", nodesNow, Format::rgba32ui)
+            .texels("bvhCorners", cornersNow, Format::rgba32f);
+    };
+    nodes.valid() ? bind(nodes, corners) : bind(still.nodes(), still.corners());
     command.storage("BvhSources", still.sources())
         .set("localFromEye",
              glm::mat4(still.worldToLocal() * glm::inverse(inputs.view.worldToView)))

@@ -29,12 +29,26 @@ bool cellOfThread(out ivec2 cell, out ivec2 texel) {
     return place.light == lightIndex && row >= 0 && row < cellsHere.y;
 }
 #else
+#ifdef LISTED_CELLS
+// emit/grid_list.comp's: how many, and from the fifth on column + 65536 row of each.
+uniform usamplerBuffer listedCells;
+#endif
+
 // The cell of this thread, and its texel in the list; false: there is none for it.
 bool cellOfThread(out ivec2 cell, out ivec2 texel) {
+#ifdef LISTED_CELLS
+    uint number = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u +
+                  gl_LocalInvocationIndex;
+    bool isOne = number < texelFetch(listedCells, 0).x;
+    uint place = texelFetch(listedCells, isOne ? int(number) + 4 : 0).x;
+    ivec2 here = ivec2(place & 0xffffu, place >> 16u);
+#else
     ivec2 here = ivec2(gl_GlobalInvocationID.xy);
+    bool isOne = all(lessThan(here, cellsHere));
+#endif
     cell = here + ivec2(0, firstRow);
     texel = here + ivec2(0, firstOfLight);
-    return all(lessThan(here, cellsHere));
+    return isOne;
 }
 #endif
 

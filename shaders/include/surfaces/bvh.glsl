@@ -4,17 +4,36 @@
 #include "include/surfaces/point_on_triangle.glsl"
 #include "framework/transport/bvh.h"
 
-layout(std430) readonly buffer BvhNodes {
-    BvhNode bvhNodes[];
-};
-layout(std430) readonly buffer BvhCorners {
-    VertexData bvhCorners[];  // three a triangle
-};
+uniform usamplerBuffer bvhNodes;   // four texels each
+uniform samplerBuffer bvhCorners;  // three a triangle, two texels each
 layout(std430) readonly buffer BvhSources {
     BvhSource bvhSources[];
 };
 uniform mat4 localFromEye;  // rigid
 uniform float localRounding;  // that local coordinates may be off by, m
+
+BvhNode bvhNodeAt(uint number) {
+    int texel = int(4u * number);
+    uvec4 first = texelFetch(bvhNodes, texel);
+    BvhNode node;
+    node.origin = uintBitsToFloat(first.xyz);
+    node.exponents = first.w;
+    node.children = texelFetch(bvhNodes, texel + 1);
+    node.lower = texelFetch(bvhNodes, texel + 2);
+    node.upper = texelFetch(bvhNodes, texel + 3);
+    return node;
+}
+
+// `corner`: 0 to 2.
+vec3 bvhPositionAt(uint triangle, uint corner) {
+    return texelFetch(bvhCorners, int(6u * triangle + 2u * corner)).xyz;
+}
+VertexData bvhCornerAt(uint triangle, uint corner) {
+    int texel = int(6u * triangle + 2u * corner);
+    vec4 position = texelFetch(bvhCorners, texel);
+    vec4 normal = texelFetch(bvhCorners, texel + 1);
+    return VertexData(position.xyz, position.w, normal.xyz, normal.w);
+}
 
 struct BvhRay {
     vec3 origin;
@@ -58,7 +77,7 @@ void testTriangle(BvhRay ray, uint triangle, inout BvhHit best) {
     vec3 positions[3];
     vec3 corners[3];
     for (uint i = 0u; i < 3u; ++i) {
-        positions[i] = bvhCorners[3u * triangle + i].position;
+        positions[i] = bvhPositionAt(triangle, i);
         corners[i] = positions[i] - ray.origin;
     }
     vec3 sides = sidesOfEdges(corners, ray.direction);
@@ -103,41 +122,68 @@ void orderTwo(inout float a, inout uint childA, inout float b, inout uint childB
     childA = nearerChild;
 }
 
+// Children that wait, the nearest last, and the bits of where the ray enters them.
+uvec2 bvhWaiting[BVH_STACK];
+int bvhWaitingCount = 0;
+
+// The next one that the ray enters before `farthest`, m; kBvhNone: there is none.
+uint nextBvhChild(float farthest) {
+    uint found = kBvhNone;
+    do {
+        if (bvhWaitingCount > 0) {
+            --bvhWaitingCount;
+            uvec2 waiting = bvhWaiting[bvhWaitingCount];
+            if (uintBitsToFloat(waiting.y) < farthest) found = waiting.x;
+        }
+    } while (found == kBvhNone && bvhWaitingCount > 0);
+    return found;
+}
+
+// The nearest child of a node that the ray enters before `farthest`, m; the others wait.
+uint enteredBvhChild(BvhNode node, vec3 origin, vec3 inverse, float farthest) {
+    vec4 at = entriesOf(node, origin, inverse, farthest);
+    uvec4 children = node.children;
+    orderTwo(at.x, children.x, at.y, children.y);
+    orderTwo(at.z, children.z, at.w, children.w);
+    orderTwo(at.x, children.x, at.z, children.z);
+    orderTwo(at.y, children.y, at.w, children.w);
+    orderTwo(at.y, children.y, at.z, children.z);
+    for (int i = 3; i > 0; --i) {
+        if (at[i] < 3.4e38) {
+            bvhWaiting[bvhWaitingCount] = uvec2(children[i], floatBitsToUint(at[i]));
+            ++bvhWaitingCount;
+        }
+    }
+    return at.x < 3.4e38 ? children.x : kBvhNone;
+}
+
 // The nearest hit before `farthest`, m; with `isAnyEnough` the first that is found.
 BvhHit searchBvh(BvhRay ray, float farthest, bool isAnyEnough) {
     BvhHit best = BvhHit(farthest, kBvhNone);
     // Where a ray is parallel to an axis 0 times this is still 0.
     vec3 safe = mix(ray.direction, vec3(1e-30), lessThan(abs(ray.direction), vec3(1e-30)));
     vec3 inverse = 1.0 / safe;
-    uvec2 waiting[BVH_STACK];  // children, and the bits of where the ray enters them
-    int count = 0;
+    bvhWaitingCount = 0;
     uint child = 0u;
-    while (true) {
-        if ((child & kBvhLeaf) != 0u) {
-            uint first = bvhLeafFirst(child);
-            uint end = first + bvhLeafCount(child);
-            for (uint triangle = first; triangle < end; ++triangle)
-                testTriangle(ray, triangle, best);
-            if (isAnyEnough && best.triangle != kBvhNone) return best;
-        } else {
-            BvhNode node = bvhNodes[child];
-            vec4 at = entriesOf(node, ray.origin, inverse, best.distance);
-            uvec4 children = node.children;
-            orderTwo(at.x, children.x, at.y, children.y);
-            orderTwo(at.z, children.z, at.w, children.w);
-            orderTwo(at.x, children.x, at.z, children.z);
-            orderTwo(at.y, children.y, at.w, children.w);
-            orderTwo(at.y, children.y, at.z, children.z);
-            for (int i = 3; i >= 0; --i) {
-                if (at[i] < 3.4e38) waiting[count++] = uvec2(children[i], floatBitsToUint(at[i]));
-            }
-        }
+    // Down to a leaf, and then through its triangles: rays side by side do the same together. A loop
+    // that asks at its end runs once less where a software rasteriser can't leave it at its begin.
+    do {
         do {
-            if (count == 0) return best;
-            --count;
-        } while (uintBitsToFloat(waiting[count].y) >= best.distance);
-        child = waiting[count].x;
-    }
+            if ((child & kBvhLeaf) == 0u) {
+                child = enteredBvhChild(bvhNodeAt(child), ray.origin, inverse, best.distance);
+                if (child == kBvhNone) child = nextBvhChild(best.distance);
+            }
+        } while ((child & kBvhLeaf) == 0u);
+        if (child != kBvhNone) {
+            uint triangle = bvhLeafFirst(child);
+            uint end = triangle + bvhLeafCount(child);
+            do {
+                testTriangle(ray, triangle, best);
+            } while (++triangle < end);
+            child = isAnyEnough && best.triangle != kBvhNone ? kBvhNone
+                                                             : nextBvhChild(best.distance);
+        }
+    } while (child != kBvhNone);
     return best;
 }
 
@@ -158,7 +204,7 @@ float resolvedByPicture(vec3 positionVs, float footprint) {
 vec3 weightsOfHit(BvhRay ray, uint triangle) {
     vec3 corners[3];
     for (uint i = 0u; i < 3u; ++i)
-        corners[i] = bvhCorners[3u * triangle + i].position - ray.origin;
+        corners[i] = bvhPositionAt(triangle, i) - ray.origin;
     vec3 weights = sidesOfEdges(corners, ray.direction);
     float sum = weights.x + weights.y + weights.z;
     return sum != 0.0 ? weights / sum : vec3(1.0 / 3.0);
@@ -170,7 +216,7 @@ PointOnTriangle pointOfHit(BvhRay ray, BvhHit hit) {
     vec3 normals[3];
     vec2 uvs[3];
     for (uint i = 0u; i < 3u; ++i) {
-        VertexData corner = bvhCorners[3u * hit.triangle + i];
+        VertexData corner = bvhCornerAt(hit.triangle, i);
         positions[i] = corner.position;
         normals[i] = corner.normal;
         uvs[i] = vec2(corner.u, corner.v);

@@ -133,6 +133,38 @@ TEST_F(CountedAccesses, ReadsOfABufferAreThoseOfItsFieldsAndEachByteOnce) {
     EXPECT_EQ(counted.atomics, 0u);
 }
 
+TEST_F(CountedAccesses, TexelsOfABufferAreReadBySixteenBytes) {
+    // The second of the two texels that every second thing has, each by two threads.
+    const std::string shader = write("texels.comp",
+                                     "layout(local_size_x = 64) in;\n"
+                                     "uniform samplerBuffer things;\n"
+                                     "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                     "void main() {\n"
+                                     "    int i = int(gl_GlobalInvocationID.x);\n"
+                                     "    vec4 texel = texelFetch(things, (i / 2) * 4 + 1);\n"
+                                     "    numbers[i] = uint(texel.x) + 7u;\n"
+                                     "}\n");
+    std::vector<Number> found;
+    const gl::PassAccesses counted =
+        count([&](const Resources& made, const Resources& own, gl::PassContext& pass) {
+            std::vector<Thing> things(kThings);
+            for (std::size_t i = 0; i < things.size(); ++i)
+                things[i].weight = static_cast<float>(i);
+            pass.buffer(made.things).upload(0, things.size() * sizeof(Thing), things.data());
+            pass.compute(shader)
+                .texels("things", made.things, graph::Format::rgba32f)
+                .storage("Numbers", own.numbers)
+                .dispatch(kThings / 64);
+            found = pass.buffer(own.numbers).read<Number>();
+        });
+    constexpr std::uint64_t kTexel = 16;
+    EXPECT_EQ(counted.requestedReadBytes, kTexel * kThings);
+    EXPECT_EQ(counted.readBytes, kTexel * kThings / 2);
+    ASSERT_EQ(found.size(), static_cast<std::size_t>(kThings));
+    for (unsigned i = 0; i < found.size(); ++i)
+        EXPECT_EQ(found[i].value, i / 2 * 2 + 7) << i;
+}
+
 TEST_F(CountedAccesses, AtomicsAreToldApartAndLocalsOfTheSameNameAreNone) {
     const std::string shader = write("atomic.comp",
                                      "layout(local_size_x = 64) in;\n"

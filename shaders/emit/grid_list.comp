@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// emit.grid: the cells through whose middles the light sees something specular first, which alone
+// have a photon. One thread a cell.
+#include "include/photons/light_grid.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "include/thread_list.glsl"
+
+layout(std430) buffer CellsToEmit {
+    ThreadList cellsToEmit;
+    uint cellPlaces[];  // column + 65536 row, of those here
+};
+
+void main() {
+    ivec2 cell;
+    ivec2 texel;
+    if (!cellOfThread(cell, texel)) return;
+    uint object = seenAt(cell, ivec2(0)).x;
+    if (object == 0u || isReceiver(materialKind(instances[object - 1u].material.x))) return;
+    ivec2 here = cell - ivec2(0, firstRow);
+    cellPlaces[atomicAdd(cellsToEmit.count, 1u)] = uint(here.x) | uint(here.y) << 16u;
+}
