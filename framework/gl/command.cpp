@@ -85,7 +85,8 @@ Command& Command::storage(const std::string& block, const Buffer& buffer) {
 
 Command& Command::texels(const std::string& name, const graph::ResourceRef& handle,
                          graph::Format format) {
-    const Access access = context_.access(handle, Use::fetch);
+    // A buffer that is fetched from as textures are.
+    const Access access{context_.access(handle, Use::storage).slot, Use::fetch};
     const Buffer& buffer = context_.bufferOf(access);
     textures_.push_back({name, buffer.texels(format), access, offers_, buffer.id()});
     return *this;
