@@ -21,6 +21,7 @@
 #include "techniques/reconstruct/triangles_joins.h"
 #include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
+#include "techniques/thread_lists/thread_list.h"
 
 namespace kaustik {
 namespace {
