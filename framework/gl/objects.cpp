@@ -199,10 +199,20 @@ void Buffer::copyTo(const Buffer& target) const {
 GLuint Buffer::texels(graph::Format format) const {
     Object<detail::deleteTexture>& view = texels_[format];
     if (!view.valid()) {
+        const FormatInfo info = formatInfo(format);
+        const std::size_t texels =
+            bytes_ / (sizeof(float) * static_cast<std::size_t>(info.channels));
+        GLint64 allowed = 0;
+        glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &allowed);
+        if (texels > static_cast<std::size_t>(allowed)) {
+            throw GraphError(
+                fmt::format("A buffer is to be fetched as {} texels, and this device allows {}.",
+                            texels, allowed));
+        }
         GLuint id = 0;
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
         view = Object<detail::deleteTexture>(id);
-        glTextureBuffer(id, formatInfo(format).internalFormat, object_.id());
+        glTextureBuffer(id, info.internalFormat, object_.id());
     }
     return view.id();
 }

@@ -104,7 +104,8 @@ class Buffer {
     void clear() const;
     // Copies everything to a buffer that is at least as large.
     void copyTo(const Buffer& target) const;
-    // A buffer texture of it: shaders fetch four words at once from one of that many.
+    // A buffer texture of it, of 32 bits a channel: shaders fetch as many words at once as it has
+    // channels. Throws GraphError where a device allows no texture as long as it.
     [[nodiscard]] GLuint texels(graph::Format format) const;
     // Waits for the device.
     template <class T>

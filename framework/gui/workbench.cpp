@@ -67,6 +67,8 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
     history_ = {bench_.document};
     rendererBegin_ = Clock::now();
     isUnattended_ = options.isUnattended;
+    // A program holds a key as long as a frame takes, and means one stroke.
+    if (isUnattended_) ImGui::GetIO().KeyRepeatDelay = 1e9f;
 }
 
 Workbench::~Workbench() {

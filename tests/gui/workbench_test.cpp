@@ -231,8 +231,11 @@ TEST_F(Workbench, ChangesAreUndoneAndDoneAgain) {
     bench->typeInto("parameter.trace.epsilon", "0.25", Entry::controlClick);
     const json second = document();
     bench->drag("picture", 50, 10);
+    // A step is kept with the first frame in which nothing is held down.
+    untilSettled();
     const json third = document();
     bench->click("passes.on.compose.direct");
+    untilSettled();
     const json fourth = document();
     for (const json& before : {third, second, first, first}) {
         bench->key("ctrl+z");
