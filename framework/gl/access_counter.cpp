@@ -281,6 +281,15 @@ void AccessCounter::bindBuffer(const std::string& block, GLuint buffer) {
         number(static_cast<std::size_t>(at - names.begin()), use(block, {false, buffer}));
 }
 
+void AccessCounter::bindTexels(const std::string& name, GLuint buffer, GLuint texture) {
+    const auto& names = current_->names;
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) return;
+    const auto index = static_cast<std::size_t>(at - names.begin());
+    number(index, use(name, {false, buffer}));
+    shapes_[index].y = shapeOf(texture).bytesPerTexel;
+}
+
 void AccessCounter::bindTargets(const std::vector<GLuint>& colors, GLuint depth, int layer,
                                 bool blends) {
     for (std::size_t i = 0; i < colors.size(); ++i)

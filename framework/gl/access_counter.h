@@ -64,6 +64,8 @@ class AccessCounter {
     [[nodiscard]] Program& program(const ProgramKey& key);
     void bindTexture(const std::string& name, GLuint texture);
     void bindBuffer(const std::string& block, GLuint buffer);
+    // A buffer that is fetched from by this buffer texture.
+    void bindTexels(const std::string& name, GLuint buffer, GLuint texture);
     // Colours in their order, layers as Command has them; 0 for no depth.
     void bindTargets(const std::vector<GLuint>& colors, GLuint depth, int layer, bool blends);
     // The vertices that the bound vertex array's first binding has; `indexBytes` are read with

@@ -70,7 +70,7 @@ Program& Command::bind() {
         if (bound.access) accesses.push_back(*bound.access);
         glBindTextureUnit(unit, bound.id);
         if (counter != nullptr && bound.buffer != 0) {
-            counter->bindBuffer(bound.name, bound.buffer);
+            counter->bindTexels(bound.name, bound.buffer, bound.id);
         } else if (counter != nullptr) {
             counter->bindTexture(bound.name, bound.id);
         }

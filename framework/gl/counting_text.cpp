@@ -64,13 +64,6 @@ ivec2 countedTexel(int what, int use, ivec2 texel) {{
     return texel;
 }}
 
-// Of a buffer's texels.
-int countedTexel(int what, int use, int texel) {{
-    if (uint(texel) * {piece}u < countedShape[what].x)
-        countedAccess(what, use, uint(texel), 1u, {piece}u);
-    return texel;
-}}
-
 vec3 countedSample(int what, vec3 place) {{
     uvec4 shape = countedShape[what];
     vec3 texel = vec3(fract(place.xy) * vec2(shape.xy), place.z + 0.5);
@@ -93,6 +86,12 @@ uint countedElement(int what, int use, uint stride, uint offset, uint bytes, uin
 int countedElement(int what, int use, uint stride, uint offset, uint bytes, int index) {{
     countedElement(what, use, stride, offset, bytes, uint(index));
     return index;
+}}
+
+// Of a buffer's texels, whose bytes its shape has next to its own.
+int countedTexel(int what, int use, int texel) {{
+    uint bytes = countedShape[what].y;
+    return countedElement(what, use, bytes, 0u, bytes, texel);
 }}
 
 // For atomics on what is in no array: of what is added.

@@ -165,6 +165,28 @@ TEST_F(CountedAccesses, TexelsOfABufferAreReadBySixteenBytes) {
         EXPECT_EQ(found[i].value, i / 2 * 2 + 7) << i;
 }
 
+TEST_F(CountedAccesses, TexelsOfOneWordAreReadByFourBytes) {
+    // The weights of the first 256 things, which are words 4, 12, …: half of their pieces.
+    constexpr unsigned kRead = 256;
+    const std::string shader = write("words.comp",
+                                     "layout(local_size_x = 64) in;\n"
+                                     "uniform usamplerBuffer things;\n"
+                                     "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                     "void main() {\n"
+                                     "    int i = int(gl_GlobalInvocationID.x);\n"
+                                     "    numbers[i] = texelFetch(things, 8 * i + 4).x + 1u;\n"
+                                     "}\n");
+    const gl::PassAccesses counted =
+        count([&](const Resources& made, const Resources& own, gl::PassContext& pass) {
+            pass.compute(shader)
+                .texels("things", made.things, graph::Format::r32ui)
+                .storage("Numbers", own.numbers)
+                .dispatch(kRead / 64);
+        });
+    EXPECT_EQ(counted.requestedReadBytes, 4u * kRead);
+    EXPECT_EQ(counted.readBytes, 16u * kRead);
+}
+
 TEST_F(CountedAccesses, AtomicsAreToldApartAndLocalsOfTheSameNameAreNone) {
     const std::string shader = write("atomic.comp",
                                      "layout(local_size_x = 64) in;\n"
