@@ -3,7 +3,7 @@
 """The default and an exact light tracer in turn on one machine: how much sooner one has the other's error.
 
     against_light_tracer.py --out FILE [--kaustik build/release/bin/kaustik] [--scenes NAME...] [--technique exact_rays] [--rounds 3]
-                            [--size 400x300] [--reference-photons 16777216] [-- options of kaustik run...]
+                            [--size 400x300] [--reference-photons 16777216] [--threads 0] [-- options of kaustik run...]
 
 For each scene, in each round: `kaustik run`, and `kaustik reference` (every photon straight into its pixel) with few photons and with many, out
 of an empty cache. The time of ours is of all passes of the caustic, as in table.py; the light tracer's a photon is the difference of its two
@@ -22,7 +22,8 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "plotting"))
-from light_tracer import ROOT, SEED, kaustik  # noqa: E402
+import light_tracer  # noqa: E402
+from light_tracer import ROOT, kaustik  # noqa: E402
 from study import device_of  # noqa: E402
 from table import CAUSTIC  # noqa: E402
 
@@ -44,18 +45,10 @@ def run(options, scene: str, folder: pathlib.Path) -> dict:
     return {"ms": of_caustic(report), "relMSE, net": error["rel_mse"] - error["truth_noise"]["rel_mse"], "SMAPE": error["smape"], "report": report}
 
 
-def trace(options, scene: str, photons: int, folder: pathlib.Path) -> dict:
-    image = folder / "light.exr"
-    with tempfile.TemporaryDirectory() as cache:
-        kaustik(options.kaustik, "reference", scene, "--size", options.size, "--photons", photons, "--seed", SEED, "--out", image,
-                cache=pathlib.Path(cache))
-    traced = json.loads(image.with_suffix(".json").read_text())
-    reference = folder / f"{scene}.exr"
-    if not reference.exists():
-        kaustik(options.kaustik, "reference", scene, "--size", options.size, "--photons", options.reference_photons, "--out", reference)
-    error = json.loads(kaustik(options.kaustik, "compare", "--json", "--stderr", reference.with_suffix(".stderr.exr"), image, reference))["error"]
-    return {"photons": traced["photons"], "ms": 1e3 * traced["compute_s"], "relMSE, net": error["rel_mse"] - error["truth_noise"]["rel_mse"],
-            "SMAPE": error["smape"]}
+def light(options, scene: str, photons: int, folder: pathlib.Path) -> dict:
+    row = light_tracer.measure(options, scene, "light", photons, folder)
+    return {"photons": row["photons"], "ms": 1e3 * row["seconds"], "relMSE, net": row["relMSE"] - row["relMSE, reference's own"],
+            "SMAPE": row["SMAPE"]}
 
 
 def factors(ours: dict, few: dict, many: dict) -> dict:
@@ -76,13 +69,14 @@ def measure(options, scene: str) -> dict:
             report = ours.pop("report")
             if not ours["relMSE, net"] > 0.0:
                 return {"status": "failed", "message": "below the reference's noise"}
-            rounds.append(ours | factors(ours, *(trace(options, scene, photons, pathlib.Path(folder)) for photons in (FEW, MANY))))
+            rounds.append(ours | factors(ours, *(light(options, scene, photons, pathlib.Path(folder)) for photons in (FEW, MANY))))
             others.append(report["timing"]["other_processors"])
     row = {key: statistics.median(each[key] for each in rounds) for key in rounds[0]}
     row |= {"low": min(each["factor"] for each in rounds), "high": max(each["factor"] for each in rounds)}
+    device = report["device"]
     return {key: f"{value:.5g}" for key, value in row.items()} | {
-        "status": "done", "rounds": options.rounds, "device": device_of(report["device"] | {"device": report["device"]["renderer"]}), "version": report["version"], "date": report["timing"]["date"],
-        "other_processors": f"{max(others):.2g}"}
+        "status": "done", "rounds": options.rounds, "device": device_of(device | {"device": device["renderer"]}), "version": report["version"],
+        "date": report["timing"]["date"], "other_processors": f"{max(others):.2g}"}
 
 
 def main() -> None:
@@ -94,6 +88,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--size", default="400x300")
     parser.add_argument("--reference-photons", type=int, default=16777216)
+    parser.add_argument("--threads", type=int, default=0)
     parser.add_argument("more", nargs="*", help="options of kaustik run")
     options = parser.parse_args()
     scenes = options.scenes or [line.split()[0] for line in kaustik(options.kaustik, "list", "scenes").splitlines()]

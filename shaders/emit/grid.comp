@@ -31,7 +31,7 @@ uniform int lightOfBatch;  // counted from its first
 bool isLeftOut(ivec2 cell, uint quarter) {
 #if defined(REFINED_SQUARES)
     // Each square has photons of its own at its border.
-    return isBeyondSquare(placeInSquare(threadOfSquares()), quarter);
+    return isBeyondSquare(placeInSquare(threadOfList()), quarter);
 #elif defined(LEAVES_OUT_REFINED)
     ivec2 square = cell - ivec2(0, batchRows.x) + ivec2(quarter & 1u, quarter >> 1u);
     int row = lightOfBatch * (batchRows.y + 1) + square.y;
@@ -135,7 +135,7 @@ struct Emitted {
 
 void store(ivec2 cell, ivec2 texel, Emitted emitted) {
 #ifdef REFINED_SQUARES
-    PlaceInSquare place = placeInSquare(threadOfSquares());
+    PlaceInSquare place = placeInSquare(threadOfList());
     uint number = numberInList(place);
     ivec2 extentTexel = extentTexelOf(place);
 #else

@@ -16,12 +16,18 @@ uniform ivec2 cellsHere;   // columns and rows of this light in the list
 uniform int firstRow;      // of the grid, in the list
 uniform int firstOfLight;  // row of the list where this light's begin
 
+// Where the threads are those of a list, 64 a workgroup.
+uint threadOfList() {
+    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u +
+           gl_LocalInvocationIndex;
+}
+
 #ifdef REFINED_SQUARES
 #include "include/photons/refined_square.glsl"
 
 // The cell of this thread, and its texel in the list; false: there is none for it.
 bool cellOfThread(out ivec2 cell, out ivec2 texel) {
-    PlaceInSquare place = placeInSquare(threadOfSquares());
+    PlaceInSquare place = placeInSquare(threadOfList());
     cell = cellInSquare(place);
     texel = texelInList(place);
     // What lies beyond the grid is of the first band or the last, which leave it empty.
@@ -37,8 +43,7 @@ uniform usamplerBuffer listedCells;
 // The cell of this thread, and its texel in the list; false: there is none for it.
 bool cellOfThread(out ivec2 cell, out ivec2 texel) {
 #ifdef LISTED_CELLS
-    uint number = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u +
-                  gl_LocalInvocationIndex;
+    uint number = threadOfList();
     bool isOne = number < texelFetch(listedCells, 0).x;
     uint place = texelFetch(listedCells, isOne ? int(number) + 4 : 0).x;
     ivec2 here = ivec2(place & 0xffffu, place >> 16u);

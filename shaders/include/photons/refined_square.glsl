@@ -20,11 +20,6 @@ struct PlaceInSquare {
     int light;     // -1: there is no such square
 };
 
-uint threadOfSquares() {
-    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u +
-           gl_LocalInvocationIndex;
-}
-
 PlaceInSquare placeInSquare(uint photon) {
     uint corners = uint(refinement + 1);
     uint square = photon / (corners * corners);
