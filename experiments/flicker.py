@@ -14,6 +14,9 @@ frame t, and the mean over pixels, channels and frames:
 - wrong change: the root of the mean of ((I' - I) - (R' - R))², by that of (R' - R)²: what of the truth's change is missed, and what comes on
   top of it. A picture that stands still has 1.
 
+The ± of each is its standard error: what it would vary by over other stretches of the same water as long as this one. By the jackknife over blocks
+of consecutive frames (Künsch 1989), since a frame resembles the next; it says nothing of other scenes.
+
 References are kept (~/.cache/kaustik), and a row that is in OUT already, with the same settings, is not made again: it can be interrupted. No times are taken, so that
 the machine need not be idle; on two cores without a GPU half an hour.
 """
@@ -31,7 +34,9 @@ import kaustik  # noqa: E402
 from figures import COLORS, MARKERS, plt  # noqa: E402
 
 SETTINGS = ["scene", "technique", "as_published", "frames", "time_step", "size", "photons", "reference_photons"]
-COLUMNS = [*SETTINGS, "status", "message", "relMSE", "change", "wrong change", "version"]
+MEANS = ["relMSE", "change", "wrong change"]
+COLUMNS = [*SETTINGS, "status", "message", *(column for mean in MEANS for column in (mean, f"{mean} ±")), "version"]
+BLOCKS = 6  # of frames, for the standard errors: ten frames of 60, a third of a second
 
 
 def numbers(text: str) -> tuple[int, int]:
@@ -46,19 +51,34 @@ class Truth:
         self.variance = self.standard_error.astype(np.float64) ** 2
         self.change = np.diff(self.irradiance.astype(np.float64), axis=0)
         self.change_variance = self.variance[1:] + self.variance[:-1]
-        self.mean_change = max((self.change**2 - self.change_variance).mean(), 0.0)
+        self.changes = (self.change**2 - self.change_variance).mean(axis=(1, 2, 3))
 
-    def error(self, images: np.ndarray) -> float:
+    def errors(self, images: np.ndarray) -> np.ndarray:
+        """Of each frame."""
         errors = [kaustik.compare(np.ascontiguousarray(image, np.float32), truth, standard_error=sigma)
                   for image, truth, sigma in zip(images, self.irradiance, self.standard_error)]
-        return float(np.mean([one["rel_mse"] - one["truth_noise"]["rel_mse"] for one in errors]))
+        return np.array([one["rel_mse"] - one["truth_noise"]["rel_mse"] for one in errors])
 
     def judge(self, images: np.ndarray) -> dict:
+        """The means over frames, with their standard errors."""
         change = np.diff(images, axis=0)
-        wrong = ((change - self.change) ** 2 - self.change_variance).mean()
-        return {"relMSE": self.error(images),
-                "change": np.sqrt((change**2).mean() / self.mean_change),
-                "wrong change": np.sqrt(max(wrong, 0.0) / self.mean_change)}
+        errors, changes = self.errors(images), (change**2).mean(axis=(1, 2, 3))
+        wrong = ((change - self.change) ** 2 - self.change_variance).mean(axis=(1, 2, 3))
+
+        def means(frames: np.ndarray) -> np.ndarray:
+            pairs = frames[:-1] & frames[1:]
+            truth = max(self.changes[pairs].mean(), 0.0)
+            return np.array([errors[frames].mean(), np.sqrt(changes[pairs].mean() / truth), np.sqrt(max(wrong[pairs].mean(), 0.0) / truth)])
+
+        return dict(zip(COLUMNS[COLUMNS.index("relMSE"):], np.ravel(np.column_stack(jackknife(means, len(images))))))
+
+
+def jackknife(means, frames: int, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:
+    """Of a function of which frames count: its value of all, and the standard error by leaving out each block of consecutive frames in turn."""
+    blocks = min(blocks, frames)
+    block = np.arange(frames) * blocks // frames
+    without = np.array([means(block != left_out) for left_out in range(blocks)])
+    return means(np.full(frames, True)), np.sqrt((blocks - 1) / blocks * ((without - without.mean(axis=0)) ** 2).sum(axis=0))
 
 
 def traced(scene: str, options) -> Truth:
@@ -92,9 +112,10 @@ def draw(rows: list[dict], file: Path) -> None:
         for row in (row for row in rows if row["scene"] == scene and row["status"] == "done"):
             index = techniques.index(row["technique"])
             published = row["as_published"] == "true"
-            axes.plot(float(row["relMSE"]), float(row["wrong change"]), linestyle="", color=COLORS[index % len(COLORS)],
-                      marker=MARKERS[(index + 3 * (index // len(COLORS))) % len(MARKERS)], fillstyle="none" if published else "full",
-                      label=None if published else row["technique"])
+            axes.errorbar(float(row["relMSE"]), float(row["wrong change"]), xerr=float(row["relMSE ±"]), yerr=float(row["wrong change ±"]),
+                          linestyle="", color=COLORS[index % len(COLORS)], elinewidth=0.8,
+                          marker=MARKERS[(index + 3 * (index // len(COLORS))) % len(MARKERS)], fillstyle="none" if published else "full",
+                          label=None if published else row["technique"])
         axes.axhline(1.0, color="#999999", linewidth=0.8)  # a picture that stands still
         axes.set(xscale="log", yscale="log", title=scene, xlabel="relMSE, net of the reference's noise")
     panels[0][0].set_ylabel("wrong change, by the truth's change")

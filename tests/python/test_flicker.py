@@ -46,6 +46,22 @@ class Judgement(unittest.TestCase):
         expected = 0.6 / np.sqrt((np.diff(self.exact, axis=0) ** 2).mean())
         self.assertAlmostEqual(judged["wrong change"], expected, places=6)
 
+    def test_a_mean_has_the_standard_error_of_means_of_its_blocks(self):
+        values = np.random.default_rng(7).standard_normal(60)
+        mean, error = flicker.jackknife(lambda frames: np.array([values[frames].mean()]), 60, 6)
+        blocks = values.reshape(6, 10).mean(axis=1)
+        self.assertAlmostEqual(mean[0], values.mean())
+        self.assertAlmostEqual(error[0], blocks.std(ddof=1) / np.sqrt(6))
+
+    def test_every_mean_has_an_error_which_is_nothing_where_all_frames_are_wrong_alike(self):
+        truth = flicker.Truth(self.exact, 0.0 * self.sigma)
+        judged = truth.judge(1.1 * self.exact)
+        self.assertEqual(list(judged), [column for mean in flicker.MEANS for column in (mean, f"{mean} ±")])
+        self.assertAlmostEqual(judged["wrong change"], 0.1)
+        self.assertLess(judged["wrong change ±"], 1e-7)
+        wrong_at_the_end = self.exact + np.where(np.arange(20) < 15, 0.0, 0.5 * (-1.0) ** np.arange(20))[:, None, None, None]
+        self.assertGreater(truth.judge(wrong_at_the_end)["wrong change ±"], 0.2)
+
 
 class Study(unittest.TestCase):
     def test_has_a_row_a_technique_and_does_none_twice(self):
@@ -64,6 +80,7 @@ class Study(unittest.TestCase):
         self.assertEqual([row["status"] == "done" for row in rows], [True, True, True, False])
         self.assertIn("no paper", rows[3]["message"])
         self.assertGreater(float(rows[0]["change"]), 0.0)
+        self.assertGreater(float(rows[0]["relMSE ±"]), 0.0)
 
 
 if __name__ == "__main__":
