@@ -47,7 +47,8 @@ def main() -> int:
     page = ["# Gallery", "",
             "Each technique by its defaults on a scene that shows what it is for: the irradiance of its caustic, a detail of it, the same of the "
             "truth, and the magnitude of its error (bright is wrong; each to its own scale). All scenes and counts: "
-            "[speed_and_error.md](speed_and_error.md).", "",
+            f"[speed_and_error.md](speed_and_error.md). Pictures and figures are of {last['timing']['date'][:10]}; errors of a later day are there, and in "
+            "[all_scenes.md](all_scenes.md) for the screen's tracer and `raytraced`.", "",
             "| technique, paper, caustic's passes and error | caustic, detail, truth, error |", "| --- | --- |", *rows, "",
             f"*`experiments/plotting/gallery.py`; version {last['version']}, {last['device']['renderer']}, {last['timing']['date'][:10]}; "
             "made by hand of the command, no test holds it to the code.*", ""]
