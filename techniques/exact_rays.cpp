@@ -7,10 +7,11 @@ namespace kaustik {
 void registerExactRays(Registry& registry) {
     registry.technique({"exact_rays",
                         "Photons, the eye's rays, shadows and what pixels show where surfaces end "
-                        "are traced exactly on the device; else as screen_space_photons.",
+                        "are traced exactly, on the device or, where that is the processor, by "
+                        "Embree; else as screen_space_photons.",
                         "",
                         {{"layers", "auto"},
-                         {"trace", "bvh"},
+                         {"trace", "auto"},
                          {"reconstruct", "triangles"},
                          {"reconstruct.triangles.coverage", "samples"},
                          {"shadow", "bvh"},

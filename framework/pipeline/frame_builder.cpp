@@ -188,6 +188,11 @@ void needsEyesView(const std::string& node, const std::string& what, const Views
                                   render::describe(views->space())));
 }
 
+CausticMap closeMaps(FrameBuilder& frame, CausticMap map) {
+    const auto close = frame.traits<ReconstructStage>().close;
+    return close != nullptr ? close(frame, std::move(map)) : map;
+}
+
 void needsBeams(FrameBuilder& frame, const std::string& node, const Photons& photons) {
     if (photons.hasBeams()) return;
     throw ConfigError(fmt::format(
@@ -276,7 +281,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     IrradianceMap irradiance;
     if (obstacle.empty()) {
         caustic = frame.run<DriverStage>(surfaces);
-        caustic.map = frame.run<FilterStage>(caustic.map);
+        caustic.map = frame.run<FilterStage>(closeMaps(frame, caustic.map));
         irradiance = frame.run<GatherStage>(caustic.map, surfaces);
         irradiance = frame.run<TemporalStage>(irradiance, eye);
     } else {

@@ -36,6 +36,10 @@ struct FrameInputs {
     const std::shared_ptr<const TileFrame>& tiles;  // null where there are none
     // The view has so many pixels a side of each of the picture's (eye.samples).
     int samplesPerSide = 1;
+    // The device is the processor: what runs there in place of a shader takes the same cores.
+    bool isOnProcessor = false;
+    // What nodes have made of the scene's meshes (FrameBuilder::onceForScene), by name.
+    std::map<std::string, std::shared_ptr<void>>* ofScene = nullptr;
 };
 
 // Issues a compute thread a photon of the list: shaders include include/photons/photon_thread.glsl.
@@ -57,6 +61,9 @@ void fillList(gl::PassContext& context, const Photons& photons);
 void needsEyesView(const std::string& node, const std::string& what, const Views& views);
 
 class FrameBuilder;
+// The maps with all that has come, whatever the node that the settings choose for `reconstruct` has
+// kept elsewhere until then.
+[[nodiscard]] CausticMap closeMaps(FrameBuilder& frame, CausticMap map);
 // Throws ConfigError where a node uses beams and the emitter does not make any.
 void needsBeams(FrameBuilder& frame, const std::string& node, const Photons& photons);
 
@@ -154,6 +161,14 @@ class FrameBuilder {
             shared = make();
             keptObjects_.push_back(shared);
         }
+        return std::static_pointer_cast<T>(shared);
+    }
+    // The same of what depends on nothing but the scene's meshes and materials where none of them
+    // moves: lives as long as the renderer, and is not made anew when a setting changes.
+    template <class T, class Make>
+    std::shared_ptr<T> onceForScene(const std::string& name, Make&& make) {
+        std::shared_ptr<void>& shared = (*inputs_.ofScene)[name];
+        if (!shared) shared = make();
         return std::static_pointer_cast<T>(shared);
     }
     // What the chosen tracer can find.

@@ -42,6 +42,8 @@ struct FluxSets {
     [[nodiscard]] int perView() const { return isGlossy() ? 2 * flux() : flux(); }
 };
 
+struct PixelBlock;  // techniques/reconstruct/triangles_pixel_blocks.h
+
 // Flux that has arrived, W a texel, on what some views see: sums that depend neither on the order
 // nor on the batches of what was added. Names in shaders: include/maps/flux_sum.glsl.
 struct FluxMap {
@@ -50,6 +52,8 @@ struct FluxMap {
     // What a filter has made of it, in floats: a layer of flux a view, W, and one of what is kept
     // for glossy receivers, in the unit of its sets; invalid before.
     graph::Texture<FilteredTexel> filtered;
+    // Flux that is in squares of pixels until all has come (ReconstructStage::Traits::close).
+    graph::Buffer<PixelBlock> pixelBlocks;
     FluxSets sets;
     ReceiverView on;
     int light = -1;      // whose photons alone it holds; -1: all lights'

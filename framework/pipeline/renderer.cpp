@@ -144,7 +144,9 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
               instances_,
               settings_.seed,
               settings_.tiles,
-              samplesPerSideOf(settings_)},
+              samplesPerSideOf(settings_),
+              context.info().isSoftware,
+              &ofScene_},
       programs_(registry.shaderFolders()),
       executor_(context, programs_) {
     bindToAll(Purpose::measurement);

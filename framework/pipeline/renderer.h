@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -148,6 +149,7 @@ class Renderer {
     render::ViewInstances instances_;
     scene::SceneNeeds needs_;
     float ledgerQuantumWatts_;
+    std::map<std::string, std::shared_ptr<void>> ofScene_;
     FrameInputs inputs_;
     gl::ProgramCache programs_;
     gl::Executor executor_;

@@ -161,8 +161,6 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
         // It can search the part of each ray that is on one tile of the screen
         // (LayeredDepth::tile).
         bool tiles = false;
-        // Rows of texels that it takes for a row of a list.
-        int texelRows = 1;
     };
 };
 // Adds what arrives with these hits to what has arrived before.
@@ -180,6 +178,8 @@ struct ReconstructStage : Stage<CausticMap(Hits, Surfaces, CausticMap)> {
         bool joinsCells = false;
         // The filter that makes one map of the several that it stores; "" where it stores one.
         std::string filter = {};
+        // When all light has come: brings into the maps what the node keeps elsewhere until then.
+        CausticMap (*close)(FrameBuilder&, CausticMap) = nullptr;
     };
     static constexpr auto whyIdle = &noCausticReason;
 };

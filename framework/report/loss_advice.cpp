@@ -26,7 +26,7 @@ std::string otherView(const params::ParamSet& settings) {
 // What finds more than the tracer does; "" where it finds all.
 std::string otherTracer(const params::ParamSet& settings) {
     const std::string tracer = settings.choice(TraceStage::name);
-    if (tracer == "raytraced") return "";
+    if (tracer == "raytraced" || tracer == "bvh" || tracer == "auto") return "";
     if (tracer == "background" || tracer == "plane")
         return "trace=hierarchical looks among all that the eye sees";
     if (tracer != "secant" && settings.find("trace.test").text() != "crossing")

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// reconstruct.triangles: which squares of the view's pixels show one surface, where any patch is
-// wide. One thread a square.
+// reconstruct.triangles: which squares of the view's pixels show one surface, before any light comes.
+// One thread a square.
 #include "include/thread.glsl"
 #include "include/views/continued_plane.glsl"
-#include "reconstruct/triangles_patch_list.glsl"
+#include "reconstruct/triangles_patch.glsl"
 #include "reconstruct/triangles_pixel_blocks.glsl"
 
 // Cosine between the normals of pixels that one stands for: what falls on them differs by less than
@@ -45,7 +45,7 @@ vec4 receiverOfBlock(ivec2 corner) {
 void main() {
     ivec2 blocks = blocksOfView();
     uint index = threadNumber();
-    if (widePatches.count == 0u || index >= uint(blocks.x * blocks.y)) return;
+    if (index >= uint(blocks.x * blocks.y)) return;
     ivec2 block = ivec2(index % uint(blocks.x), index / uint(blocks.x));
     pixelBlocks[index].receiver = receiverOfBlock(kBlockSide * block);
     pixelBlocks[index].sums = uint[6](0u, 0u, 0u, 0u, 0u, 0u);

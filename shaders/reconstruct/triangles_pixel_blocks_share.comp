@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// reconstruct.triangles: what squares of pixels have of wide patches goes to their pixels, by the area
-// that each sees: the same irradiance, and together the same flux to the last unit. One thread a
+// reconstruct.pixel_blocks: what squares of pixels have of wide patches goes to their pixels, by the
+// area that each sees: the same irradiance, and together the same flux to the last unit. One thread a
 // square.
 #include "include/maps/flux_sum.glsl"
 #include "include/thread.glsl"
-#include "reconstruct/triangles_patch_list.glsl"
+#include "include/views/seen_receiver.glsl"
 #include "reconstruct/triangles_pixel_blocks.glsl"
 
 // floor(sum part / 65536), low and high word; `part` from 0 to 65536.
@@ -35,7 +35,7 @@ void addWords(ivec3 word, uvec2 sum) {
 void main() {
     ivec2 blocks = blocksOfView();
     uint index = threadNumber();
-    if (widePatches.count == 0u || index >= uint(blocks.x * blocks.y)) return;
+    if (index >= uint(blocks.x * blocks.y)) return;
     uint sums[6] = pixelBlocks[index].sums;
     if ((sums[0] | sums[1] | sums[2] | sums[3] | sums[4] | sums[5]) == 0u) return;
     ivec2 corner = kBlockSide * ivec2(index % uint(blocks.x), index / uint(blocks.x));

@@ -24,6 +24,19 @@ struct Walk {
 #endif
 };
 
+#ifdef WALKS_BLOCKS
+// The squares on a line of them, first and last, that a patch can cover; none where x > y.
+ivec2 blockSpanOf(PatchLines lines, int line) {
+    vec2 heights = vec2(kBlockSide * line - lines.base.y) + vec2(0.0, kBlockSide);
+    vec2 span = vec2(1e9, -1e9);
+    addToSpan(span, lines.first, heights);
+    addToSpan(span, lines.second, heights);
+    if (span.x > span.y) return ivec2(1, 0);
+    ivec2 pixels = ivec2(floor(span)) + lines.base.x;
+    return ivec2(max(pixels.x, lines.low.x), min(pixels.y, lines.high.x)) / kBlockSide;
+}
+#endif
+
 // Over every `step`th line from the first one on; goOn() brings it to the first place.
 Walk walkOver(Patch whole, PatchOnScreen onto, int first, int step) {
     Walk walk;

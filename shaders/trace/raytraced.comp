@@ -8,7 +8,9 @@
 uniform sampler2D foundShading;    // xyz: unit, outward; w: material + 1, 0 nothing
 uniform sampler2D foundGeometric;  // xyz: the same of the triangle; w: distance, m
 #ifdef PHOTON_BEAMS
-uniform sampler2D foundTurning;  // columns of a matrix, 1/m, in three rows
+uniform sampler2D foundTurning0;  // columns of a matrix, 1/m
+uniform sampler2D foundTurning1;
+uniform sampler2D foundTurning2;
 #endif
 
 void threadMain() {
@@ -25,10 +27,9 @@ void threadMain() {
         } else if (shading.w > 0.0) {
             hit = deliverTo(photon, geometric.w, shading.xyz, geometric.xyz, uint(shading.w));
 #ifdef PHOTON_BEAMS
-            ivec2 first = ivec2(texel.x, 3 * texel.y);
-            mat3 turning = mat3(texelFetch(foundTurning, first, 0).xyz,
-                                texelFetch(foundTurning, first + ivec2(0, 1), 0).xyz,
-                                texelFetch(foundTurning, first + ivec2(0, 2), 0).xyz);
+            mat3 turning = mat3(texelFetch(foundTurning0, texel, 0).xyz,
+                                texelFetch(foundTurning1, texel, 0).xyz,
+                                texelFetch(foundTurning2, texel, 0).xyz);
             hit.shape = shapeOf(hit.normalVs, turning);
 #endif
         } else {

@@ -33,8 +33,7 @@ std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together, boo
     const int maximum = std::max(frame.params<EmitParams>("emit").batch >> branchLevels(frame), 1);
     const params::Extent photons = frame.photonsOfALight();
     const int lights = std::max(frame.needs().photonLights, 1);
-    const int listRows =
-        (kTextureRows / frame.traits<TraceStage>().texelRows) >> branchLevels(frame);
+    const int listRows = kTextureRows >> branchLevels(frame);
     const int maximumRows = std::max(std::min(maximum / photons.width, listRows), 1);
     std::vector<Samples> batches;
     const auto suffix = [&] {

@@ -19,6 +19,7 @@
 #include "techniques/reconstruct/edge_samples.h"
 #include "techniques/reconstruct/triangles.h"
 #include "techniques/reconstruct/triangles_joins.h"
+#include "techniques/reconstruct/triangles_pixel_blocks.h"
 #include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
 #include "techniques/thread_lists/thread_list.h"
@@ -54,12 +55,6 @@ struct VertexShares {
 struct PatchBlock {
     glm::vec4 flux, low, high;
 };
-// As triangles_pixel_blocks.glsl has it.
-struct PixelBlock {
-    glm::vec4 receiver;
-    std::uint32_t sums[6], unused[2];
-};
-constexpr int kBlockSide = 4;  // px
 constexpr int kMaxMerges = 4;
 
 // On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its
@@ -91,17 +86,13 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
         graph::Buffer<VertexShares> shares;
         graph::Buffer<std::uint32_t> patches;  // counts, and a list
         graph::Buffer<WidePatch> wide;
-        graph::Buffer<PatchBlock> blocks;       // where any are merged
-        graph::Buffer<PixelBlock> pixelBlocks;  // of the eye's view
+        graph::Buffer<PatchBlock> blocks;  // where any are merged
         graph::Buffer<transport::Clamped> clamped;
     };
     const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
     const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches);
     // A light's map is read between its texels, and how light goes to the eye is each pixel's own.
     const bool hasBlocks = store.isEyeView() && !isGlossy;
-    const auto blocksAlong = [](int pixels) { return (pixels + kBlockSide - 1) / kBlockSide; };
-    const int pixelBlocks =
-        hasBlocks ? blocksAlong(frame.width()) * blocksAlong(frame.height()) : 0;
     const std::string reason = hits.incoming.cells.width > 0
                                    ? "what neighbours bring is spread between them"
                                    : "no photon has neighbours: each is covered by its own beam";
@@ -139,12 +130,11 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
             }
             if (hasBlocks) {
                 setup.define("PIXEL_BLOCKS");
-                create(data.pixelBlocks, "PixelBlocks", "pixel_blocks",
-                       static_cast<std::size_t>(pixelBlocks));
+                data.stored.map.pixelBlocks = putIntoPixelBlocks(setup, store, before);
             }
             create(data.clamped, "ClampedWidths", "clamped", 1);
         },
-        [params, sets, store, wideCapacity, pixelBlocks, list = hits.incoming](
+        [params, sets, store, wideCapacity, hasBlocks, list = hits.incoming](
             const Data& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
             if (!context.isRepeated()) context.buffer(data.clamped).clear();
@@ -164,6 +154,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                     .set("wideCapacity", static_cast<int>(wideCapacity))
                     .dispatch(1);
             };
+            if (hasBlocks && data.stored.isFirst && !context.isRepeated())
+                makePixelBlocks(shader("reconstruct/triangles_pixel_blocks.comp"), store);
             countGroups(Listed::none);
             data.joins.find(context, list, shaderOfPhotons);
             const int listCapacity = list.capacity();
@@ -199,12 +191,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                 coverPatches(true);
             }
             countGroups(Listed::widePatches);
-            const auto dispatchOverBlocks = [&](const char* name) {
-                if (pixelBlocks > 0) shader(name).dispatchOver(pixelBlocks, 64);
-            };
-            dispatchOverBlocks("reconstruct/triangles_pixel_blocks.comp");
             dispatchOverPatches(shader("reconstruct/triangles_wide.comp"), kWidePatches);
-            dispatchOverBlocks("reconstruct/triangles_pixel_blocks_share.comp");
         });
     reportWidthLimit(frame,
                      {"reconstruct.triangles", "maximum", WidthBound::largest,
@@ -244,7 +231,11 @@ void registerReconstructTriangles(Registry& registry) {
          "lies between four photons is taken to change evenly. What a light's size spreads over "
          "a crease is brought to the surface beyond it on the screen alone, not in maps. Where a "
          "pixel shows several surfaces all of them reflect as the one at its middle."},
-        {.beams = true, .widensByLights = &widensByLights, .joinsCells = true}, &coverTriangles);
+        {.beams = true,
+         .widensByLights = &widensByLights,
+         .joinsCells = true,
+         .close = &shareOutPixelBlocks},
+        &coverTriangles);
 }
 
 }  // namespace kaustik

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// trace.auto: exact first hits by whichever is sooner. trace.raytraced where the device renders on
+// the processor: Embree traces 1.7 to 3.2 times as many photons there in a time as shaders do
+// (results/reconstructions.md); else trace.bvh. Out: the same hits, whichever finds them.
+#include <string>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/tracing/bvh_rays.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "techniques/tracing/processor_rays.h"
+#endif
+
+namespace kaustik {
+namespace {
+
+// Why shaders are to trace; "" where the processor is.
+const char* whyOnDevice(const FrameBuilder& frame) {
+#ifdef KAUSTIK_HAS_EMBREE
+    if (!frame.inputs().isOnProcessor) return "the device is not the processor";
+    // Embree's hierarchy would be built anew in each frame; the device's is fitted.
+    return frame.gpuScene().heightFields().empty() ? "" : "height fields move";
+#else
+    static_cast<void>(frame);
+    return "this program is built without Embree";
+#endif
+}
+
+Hits traceAuto(FrameBuilder& frame, const params::NoParams&, Photons photons, Surfaces surfaces) {
+    const std::string reason = whyOnDevice(frame);
+    const bool onProcessor = reason.empty();
+    if (frame.runsOf(TraceStage::name) == 1) {
+        frame.skip(onProcessor ? "trace.bvh" : "trace.raytraced",
+                   onProcessor ? "the device is the processor, where Embree is sooner" : reason);
+    }
+#ifdef KAUSTIK_HAS_EMBREE
+    if (onProcessor) return hitsByProcessor(frame, photons);
+#endif
+    return hitsByBvh(frame, photons, surfaces.geometry);
+}
+
+}  // namespace
+
+void registerTraceAuto(Registry& registry) {
+    registry.node<TraceStage>(
+        "auto",
+        {"Exact first hits: by the processor (Embree) where the device renders on it and nothing "
+         "moves, else on the device.",
+         "",
+         "It decides by the kind of device, by whether height fields move, and by whether the "
+         "program is built with Embree; no time is measured.",
+         {"trace.bvh"}},
+        {.reach = TracerReach::everything}, &traceAuto);
+}
+
+}  // namespace kaustik
