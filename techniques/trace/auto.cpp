@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // trace.auto: exact first hits by whichever is sooner. trace.raytraced where the device renders on
-// the processor: Embree traces 1.7 to 3.2 times as many photons there in a time as shaders do
-// (results/reconstructions.md); else trace.bvh. Out: the same hits, whichever finds them.
+// the processor, where Embree takes a third to two thirds of the shaders' time in bodies of glass
+// (results/exact_rays.md); else trace.bvh. Out: the same hits, whichever finds them.
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"

@@ -174,7 +174,8 @@ TEST_F(Explain, ShowsADisabledPassAsBypassed) {
 }
 
 TEST_F(Explain, DrawsEveryPassAndResourceAsGraphviz) {
-    const Outcome outcome = run({"explain", "ring", "--size", "64x48", "--dot", "graph.dot"});
+    const Outcome outcome =
+        run({"explain", "ring", "--size", "64x48", "--set", "trace=bvh", "--dot", "graph.dot"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(files(), std::set<std::string>{"graph.dot"});
     const std::string dot = contents("graph.dot");

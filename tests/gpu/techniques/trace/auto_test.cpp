@@ -19,11 +19,12 @@ name = "ball"
 [camera]
 position = [0, 2, 3]
 target = [0, 0, 0]
-fov_y_degrees = 45
+vertical_fov_degrees = 45
 [[light]]
+name = "sun"
 type = "directional"
 direction = [0, -1, 0]
-irradiance = [1, 1, 1]
+irradiance = 1000
 [[material]]
 name = "glass"
 type = "dielectric"
@@ -31,7 +32,7 @@ ior = 1.5
 [[material]]
 name = "grey"
 type = "lambertian"
-albedo = [0.5, 0.5, 0.5]
+albedo = 0.5
 [[object]]
 name = "floor"
 shape = "plane"
