@@ -145,7 +145,7 @@ TEST_F(Explain, SaysOfEveryNodeWhyItRunsOrNot) {
     EXPECT_TRUE(
         std::regex_search(outcome.out, std::regex("geometry\\.height_field +skipped +\\w+")))
         << outcome.out;
-    EXPECT_TRUE(std::regex_search(outcome.out, std::regex("trace\\.bvh +runs +\\w+")))
+    EXPECT_TRUE(std::regex_search(outcome.out, std::regex("trace\\.(bvh|raytraced) +runs +\\w+")))
         << outcome.out;
     EXPECT_TRUE(files().empty());
 }

@@ -92,7 +92,7 @@ TEST_F(PassesPanel, APassThatIsSwitchedOffChangesThePictureAndCostsNothing) {
     start();
     const Image before = seenPicture();
     const std::vector<std::string> timed = passesWith("passes.median.");
-    bench->click("passes.on.compose.direct");
+    switchPass("compose.direct");
     untilSettled();
     const Image without = seenPicture();
     bench->keepScreenshot("passes-off");
@@ -101,6 +101,7 @@ TEST_F(PassesPanel, APassThatIsSwitchedOffChangesThePictureAndCostsNothing) {
     EXPECT_EQ(bench->value("passes.on.compose.direct"), "off");
     EXPECT_NE(bench->value("passes.why.compose.direct").find("'direct.irradiance' is 0"),
               std::string::npos);
+    bench->wheel("passes.on.compose.direct", 20);
     // Light is only taken away.
     EXPECT_LT(meanOf(without), 0.5 * meanOf(before));
     EXPECT_GT(meanOf(without), 0.0) << "the caustic stays";
@@ -119,9 +120,10 @@ TEST_F(PassesPanel, APassThatIsSwitchedOffChangesThePictureAndCostsNothing) {
     EXPECT_EQ(state("shadow.map"), "culled");
     EXPECT_NE(bench->value("passes.why.shadow.map").find("nothing asks for"), std::string::npos);
 
-    bench->click("passes.on.compose.direct");
+    switchPass("compose.direct");
     untilSettled();
     EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
+    bench->wheel("passes.on.compose.direct", 20);
     EXPECT_EQ(passesWith("passes.median."), timed);
 }
 

@@ -193,7 +193,7 @@ TEST_F(RecordPanel, ASavedExperimentGivesTheSameImagesToTheBit) {
     start(kept);
     bench->drag("light.sun", -40, 5);
     bench->drag("picture", 70, 30, kLeftButton, {0.2, 0.9});
-    bench->click("passes.on.compose.direct");
+    switchPass("compose.direct");
     bench->typeInto("parameter.reconstruct.triangles.tolerance", "0.3", Entry::controlClick);
     open("Technique");
     choose("stage.trace", "march");

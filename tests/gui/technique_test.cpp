@@ -120,8 +120,7 @@ TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {
     open("Technique");
     bench->click("variant.keep");
     open("Passes");
-    bench->wheel("passes.on.emit.grid", -20);
-    bench->click("passes.on.compose.direct");
+    switchPass("compose.direct");
     untilSettled();
     open("Technique");
     EXPECT_EQ(document().at("variant").at("disable"), json({"compose.direct"}));

@@ -79,6 +79,11 @@ void WorkbenchTest::endByClosing() {
     EXPECT_EQ(outcome.err, "");
 }
 
+void WorkbenchTest::switchPass(const std::string& name) {
+    if (!bench->has("passes.on." + name)) bench->wheel("passes.on.emit.grid", -20);
+    bench->click("passes.on." + name);
+}
+
 void WorkbenchTest::untilSettled() {
     bench->waitFor("a settled picture", [](const Json& screen) {
         const Json& status = screen.at("status");

@@ -47,6 +47,8 @@ class WorkbenchTest : public testing::Test {
     void untilRecorded();
     // Comes by a tab's name: Passes, Technique, Scene, Parameters, Image, Error, Record.
     void open(const std::string& tab) { bench->click("tab." + tab); }
+    // Switches a pass off or on in the panel Passes, which has more rows than it shows.
+    void switchPass(const std::string& name);
     void choose(const std::string& control, const std::string& option);
     [[nodiscard]] Json document() { return bench->status().at("document"); }
     [[nodiscard]] bool says(const std::string& control, const std::string& part);

@@ -92,7 +92,7 @@ TEST_F(Workbench, ARestartFindsEverythingAsItWasLeft) {
     start();
     bench->drag("picture", 90, 20);
     bench->typeInto("parameter.trace.epsilon", "0.25", Entry::controlClick);
-    bench->click("passes.on.compose.direct");
+    switchPass("compose.direct");
     open("Image");
     choose("image.texture", "caustic.irradiance");
     untilSettled();  // the look is that of the image that is seen
@@ -234,7 +234,7 @@ TEST_F(Workbench, ChangesAreUndoneAndDoneAgain) {
     // A step is kept with the first frame in which nothing is held down.
     untilSettled();
     const json third = document();
-    bench->click("passes.on.compose.direct");
+    switchPass("compose.direct");
     untilSettled();
     const json fourth = document();
     for (const json& before : {third, second, first, first}) {
