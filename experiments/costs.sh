@@ -27,10 +27,7 @@ for scene in $scenes; do
     for technique in $techniques; do
         folder=$out/$scene-$technique
         [[ -f $folder/report.json ]] && continue
-        # On a processor the default would have the processor trace.
-        tracer=()
-        [[ $technique == exact_rays ]] && tracer=(--set trace=bvh)
-        "$root/build/release/bin/kaustik" run "$scene" --technique "$technique" "${tracer[@]}" --size 1920x1080 --set emit.photons=1024x1024 --set layers.count=8 \
+        "$root/build/release/bin/kaustik" run "$scene" --technique "$technique" --size 1920x1080 --set emit.photons=1024x1024 --set layers.count=8 \
             --frames 1 --warmup 0 --device-model 1000GB/s --out "$folder" || echo "costs: $scene with $technique was refused" >&2
     done
 done

@@ -15,7 +15,8 @@ frame t, and the mean over pixels, channels and frames:
   top of it. A picture that stands still has 1.
 
 The ± of each is its standard error: what it would vary by over other stretches of the same water as long as this one. By the jackknife over blocks
-of consecutive frames (Künsch 1989), since a frame resembles the next; it says nothing of other scenes.
+of consecutive frames (Künsch 1989), since a frame resembles the next. Blocks of a third of a second are shorter than the longest waves' periods, so that
+it is rather too small; it says nothing of other scenes.
 
 References are kept (~/.cache/kaustik), and a row that is in OUT already, with the same settings, is not made again: it can be interrupted. No times are taken, so that
 the machine need not be idle; on two cores without a GPU half an hour.
@@ -75,8 +76,10 @@ class Truth:
 
 def jackknife(means, frames: int, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:
     """Of a function of which frames count: its value of all, and the standard error by leaving out each block of consecutive frames in turn."""
-    blocks = min(blocks, frames)
+    blocks = max(min(blocks, frames // 2), 1)  # of two frames at least: one alone has no next one
     block = np.arange(frames) * blocks // frames
+    if blocks == 1:
+        return means(np.full(frames, True)), np.full_like(means(np.full(frames, True)), np.nan)
     without = np.array([means(block != left_out) for left_out in range(blocks)])
     return means(np.full(frames, True)), np.sqrt((blocks - 1) / blocks * ((without - without.mean(axis=0)) ** 2).sum(axis=0))
 
@@ -150,7 +153,7 @@ def main() -> int:
                        "time_step": options.time_step, "size": options.size, "photons": options.photons,
                        "reference_photons": options.reference_photons, "version": kaustik.__version__}
                 same = [old for old in rows if all(str(row[key]) == str(old[key]) for key in SETTINGS)]
-                if any(old["status"] == "done" for old in same):
+                if any(old["status"] == "done" and old.get("relMSE ±") for old in same):
                     continue
                 rows = [old for old in rows if old not in same]
                 try:

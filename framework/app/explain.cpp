@@ -17,6 +17,7 @@ void explainCommand(const ExplainOptions& options, const Registry& registry) {
     scene::Scene scene =
         loadRequestedScene(options.scene.scene, options.scene.time, options.scene.scenePlace);
     RenderSettings settings = makeSettings(options.scene, registry);
+    settings.asOnGpu = model.has_value();
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(options.scene.glDebug);
     run::Session session(*context, registry, scene, std::move(settings));
     session.measureDepthComplexity();

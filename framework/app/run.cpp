@@ -60,6 +60,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     if (lastSeconds != scene.timeSeconds) scene::setTime(scene, lastSeconds);
     RenderSettings settings = makeSettings(options.scene, registry, options.seed);
     settings.hasLedger = options.hasLedger;
+    settings.asOnGpu = model.has_value();
     const fs::path folder =
         options.out.empty()
             ? fs::path("results/runs") /

@@ -293,8 +293,8 @@ Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Sce
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         const Hits hits = inject(builder, batch);
         const Surfaces surfaces{geometry, eye, {}};
-        const CausticMap map = builder.run<FilterStage>(
-            closeMaps(builder, builder.run<ReconstructStage>(hits, surfaces, CausticMap{})));
+        const CausticMap map =
+            builder.run<FilterStage>(builder.run<ReconstructStage>(hits, surfaces, CausticMap{}));
         const IrradianceMap caustic = builder.run<GatherStage>(map, surfaces);
         const NoData noData = addNothing(builder, caustic.ledger);
         return FrameOutputs{noData.picture, caustic, eye, {},  hits,

@@ -131,6 +131,11 @@ Hits FrameBuilder::hitsOfTiles(const TraceStage::Build& build, const Photons& ph
     return tileHits_.back();
 }
 
+CausticMap FrameBuilder::closed(CausticMap map) {
+    const auto close = traits<ReconstructStage>().close;
+    return close != nullptr ? close(*this, std::move(map)) : map;
+}
+
 Hits FrameBuilder::traced(const TraceStage::Build& build, const Photons& photons,
                           const Surfaces& surfaces) {
     TraceStage::Build tracer = build;
@@ -186,11 +191,6 @@ void needsEyesView(const std::string& node, const std::string& what, const Views
     throw ConfigError(fmt::format("{} works on the screen, but {} it is given {} {}.", node, what,
                                   what.ends_with('s') ? "are" : "is",
                                   render::describe(views->space())));
-}
-
-CausticMap closeMaps(FrameBuilder& frame, CausticMap map) {
-    const auto close = frame.traits<ReconstructStage>().close;
-    return close != nullptr ? close(frame, std::move(map)) : map;
 }
 
 void needsBeams(FrameBuilder& frame, const std::string& node, const Photons& photons) {
@@ -281,7 +281,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     IrradianceMap irradiance;
     if (obstacle.empty()) {
         caustic = frame.run<DriverStage>(surfaces);
-        caustic.map = frame.run<FilterStage>(closeMaps(frame, caustic.map));
+        caustic.map = frame.run<FilterStage>(caustic.map);
         irradiance = frame.run<GatherStage>(caustic.map, surfaces);
         irradiance = frame.run<TemporalStage>(irradiance, eye);
     } else {

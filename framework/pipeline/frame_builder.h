@@ -61,9 +61,6 @@ void fillList(gl::PassContext& context, const Photons& photons);
 void needsEyesView(const std::string& node, const std::string& what, const Views& views);
 
 class FrameBuilder;
-// The maps with all that has come, whatever the node that the settings choose for `reconstruct` has
-// kept elsewhere until then.
-[[nodiscard]] CausticMap closeMaps(FrameBuilder& frame, CausticMap map);
 // Throws ConfigError where a node uses beams and the emitter does not make any.
 void needsBeams(FrameBuilder& frame, const std::string& node, const Photons& photons);
 
@@ -87,6 +84,8 @@ class FrameBuilder {
             needsWayOut(in...);
             if (prefix_.empty()) return traced(build, std::move(in)...);
         }
+        if constexpr (std::is_same_v<Stage, FilterStage>)
+            return build(*this, closed(std::move(in)...));
         return build(*this, std::move(in)...);
     }
     [[nodiscard]] const Registry::Node& chosenNode(const std::string& stage);
@@ -235,6 +234,9 @@ class FrameBuilder {
     // ConfigError where some of the photons may be inside of bodies, and the tracer finds no
     // surface there.
     void needsWayOut(const Photons& photons, const Surfaces& surfaces) const;
+    // The maps with all that has come, whatever the node that the settings choose for `reconstruct`
+    // has kept elsewhere until then.
+    [[nodiscard]] CausticMap closed(CausticMap map);
     Hits traced(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
     Hits recorded(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
     // Of tiles: those that are known, or that the tile's tracer finds.

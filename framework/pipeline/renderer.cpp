@@ -145,7 +145,7 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
               settings_.seed,
               settings_.tiles,
               samplesPerSideOf(settings_),
-              context.info().isSoftware,
+              context.info().isSoftware && !settings_.asOnGpu,
               &ofScene_},
       programs_(registry.shaderFolders()),
       executor_(context, programs_) {
@@ -172,12 +172,13 @@ void Renderer::update(RenderSettings settings) {
         settings.technique.name != settings_.technique.name ||
         settings.technique.isAsPublished != settings_.technique.isAsPublished ||
         settings.disabledPasses != settings_.disabledPasses ||
-        settings.hasLedger != settings_.hasLedger ||
+        settings.hasLedger != settings_.hasLedger || settings.asOnGpu != settings_.asOnGpu ||
         settings.params.json() != settings_.params.json();
     if (asksForOthers) startedFor_.clear();
     settings_ = std::move(settings);
     view_ = eyeView(scene_, settings_);
     inputs_.samplesPerSide = samplesPerSideOf(settings_);
+    inputs_.isOnProcessor = context_.info().isSoftware && !settings_.asOnGpu;
     viewBlock_ = makeViewBlock(scene_, view_);
     lights_ = makeLights(scene_, view_);
     bands_ = makeBands(scene_);

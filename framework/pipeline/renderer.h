@@ -30,6 +30,9 @@ struct RenderSettings {
     std::uint64_t seed = 1;  // of everything random; equal ones give equal bits
     // Whether frames for pictures sum up the ledger too, which those for measurement always do.
     bool hasLedger = true;
+    // Nodes that choose by the kind of device choose as on a GPU, whatever the device: for what is
+    // counted or compiled here for one.
+    bool asOnGpu = false;
     // Null unless the first hits of photons are, or are to be, found on tiles of the screen.
     std::shared_ptr<const TileFrame> tiles = {};
 };
@@ -50,8 +53,8 @@ class Renderer {
              RenderSettings settings);
 
     // Takes over other settings, and what has changed of the scene's camera, lights, medium, time
-    // and waves; its meshes, materials and images must be as they were. Programs and memory that
-    // still fit are kept. build() must follow.
+    // and waves; its meshes, materials and images must be as they were, and where they were.
+    // Programs and memory that still fit are kept. build() must follow.
     void update(RenderSettings settings);
 
     // Forgets the passes that the settings switch off and that no frame of them has, as those of a

@@ -50,6 +50,7 @@ CausticMap shareOutPixelBlocks(FrameBuilder& frame, CausticMap map) {
                 data = own;
                 setup.sample("receiver", own.on.receiver);
                 setup.storage("PixelBlocks", own.pixelBlocks);
+                data.pixelBlocks = {};
                 data.flux = setup.image("fluxSums", setup.write(own.flux));
             },
             [views = own.on.views](const FluxMap&, gl::PassContext& context) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// trace.auto: exact first hits by whichever is sooner. trace.raytraced where the device renders on
-// the processor, where Embree takes a third to two thirds of the shaders' time in bodies of glass
-// (results/exact_rays.md); else trace.bvh. Out: the same hits, whichever finds them.
+// trace.auto: exact first hits, by trace.raytraced where the device renders on the processor, since
+// Embree takes a third to two thirds of the shaders' time there in bodies of glass
+// (results/exact_rays.md), else by trace.bvh. Out: the same hits, ties aside, whichever finds them.
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"
@@ -18,7 +18,7 @@ const char* whyOnDevice(const FrameBuilder& frame) {
 #ifdef KAUSTIK_HAS_EMBREE
     if (!frame.inputs().isOnProcessor) return "the device is not the processor";
     // Embree's hierarchy would be built anew in each frame; the device's is fitted.
-    return frame.gpuScene().heightFields().empty() ? "" : "height fields move";
+    return frame.needs().animated ? "waves move" : "";
 #else
     static_cast<void>(frame);
     return "this program is built without Embree";
@@ -29,8 +29,9 @@ Hits traceAuto(FrameBuilder& frame, const params::NoParams&, Photons photons, Su
     const std::string reason = whyOnDevice(frame);
     const bool onProcessor = reason.empty();
     if (frame.runsOf(TraceStage::name) == 1) {
+        const FrameBuilder::PassScope whoever(frame);
         frame.skip(onProcessor ? "trace.bvh" : "trace.raytraced",
-                   onProcessor ? "the device is the processor, where Embree is sooner" : reason);
+                   onProcessor ? "the device is the processor, on which Embree traces" : reason);
     }
 #ifdef KAUSTIK_HAS_EMBREE
     if (onProcessor) return hitsByProcessor(frame, photons);
@@ -46,9 +47,8 @@ void registerTraceAuto(Registry& registry) {
         {"Exact first hits: by the processor (Embree) where the device renders on it and nothing "
          "moves, else on the device.",
          "",
-         "It decides by the kind of device, by whether height fields move, and by whether the "
-         "program is built with Embree; no time is measured.",
-         {"trace.bvh"}},
+         "It decides by the kind of device, by whether waves move, and by whether the program is "
+         "built with Embree; no time is measured."},
         {.reach = TracerReach::everything}, &traceAuto);
 }
 

@@ -78,10 +78,10 @@ void findHits(const render::RasterView& view, const reference::EmbreeScene& scen
 
 Hits hitsByProcessor(FrameBuilder& frame, const Photons& photons) {
     const auto make = [&] { return std::make_shared<reference::EmbreeScene>(frame.scene()); };
-    const char* const name = "reference.embree_scene";
+    const char* const shared = "reference.embree_scene";
     const auto scene = frame.gpuScene().heightFields().empty()
-                           ? frame.onceForScene<reference::EmbreeScene>(name, make)
-                           : frame.once<reference::EmbreeScene>(name, make);
+                           ? frame.onceForScene<reference::EmbreeScene>(shared, make)
+                           : frame.once<reference::EmbreeScene>(shared, make);
     return frame
         .pass<Found>(
             "trace.raytraced", "the processor traces every photon exactly",

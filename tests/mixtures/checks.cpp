@@ -258,7 +258,8 @@ std::vector<Check> drawnChecks(Random& random, const Rendered& rendered) {
         if (hasEffect && params.find(neutral.name).text() != value)
             bits.push_back(bitsOf(neutral.name + "=" + value));
     }
-    if (params.choice(TraceStage::name) == "raytraced") bits.push_back(bitsOf("threads=1"));
+    const std::string tracer = params.choice(TraceStage::name);
+    if (tracer == "raytraced" || tracer == "auto") bits.push_back(bitsOf("threads=1"));
     std::vector<Check> checks = {orderOf(1 + random.below(100)),
                                  lightOf(random.of(std::vector<double>{2.0, 2.0, 0x1p-12, 0x1p12})),
                                  scaleOf(random.of(std::vector<double>{0.1, 100.0, 0x1p-4, 0x1p7})),

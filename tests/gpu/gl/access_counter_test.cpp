@@ -409,7 +409,7 @@ TEST_P(CountedFrame, IsTheSameFrameAndTouchesNoMoreThanIsThere) {
     const scene::Scene scene =
         scene::loadSceneFile(projectRoot() / "experiments/scenes/glass-sphere.toml");
     Settings settings = {{"emit.photons", "48x48"}};
-    // By shaders, whatever the device.
+    // By shaders, as on a GPU.
     if (GetParam() == std::string("exact_rays")) settings.emplace_back("trace", "bvh");
     Frame frame(scene, 64, 48, settings, {}, false, GetParam());
     const auto read = [&] {

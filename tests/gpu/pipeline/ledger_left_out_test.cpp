@@ -24,6 +24,7 @@ TEST_P(WithoutALedger, TheLightIsTheSameAndNoProgramKnowsOfOne) {
         settings.width = 64;
         settings.height = 48;
         settings.hasLedger = hasLedger;
+        settings.asOnGpu = true;
         Renderer renderer(context(), registry, scene, settings);
         renderer.build(Purpose::picture);
         programs = renderer.listPrograms();

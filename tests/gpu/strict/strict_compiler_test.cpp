@@ -107,6 +107,7 @@ TEST_F(StrictCompiler, TakesTheProgramsOfLampsWhoseLightIsWidened) {
                                  {"emit.photons", "32x32", "test"}}},
                 registry);
             run::setSize(settings, {64, 48});
+            settings.asOnGpu = true;
             Renderer renderer(context(), registry, scene, settings);
             renderer.build(Purpose::picture);
             gl::PassTimer timer(gl::TimerMode::finish);

@@ -69,6 +69,18 @@ TEST(TraceAuto, TracesStillScenesWhereItIsSoonerAndMovingOnesOnTheDevice) {
     EXPECT_FALSE(runs(moving, "trace.raytraced"));
 }
 
+TEST(TraceAuto, TakesTheDevicesWayWhereItIsAskedForWhatAGpuIsGiven) {
+    const Registry registry = registerAll();
+    const scene::Scene ball = sceneFromText(kBall);
+    RenderSettings settings = run::makeSettings({.technique = "exact_rays"}, registry);
+    run::setSize(settings, {32, 24});
+    settings.asOnGpu = true;
+    Renderer renderer(context(), registry, ball, settings);
+    const graph::Compiled compiled = renderer.compile(Purpose::picture);
+    EXPECT_TRUE(std::any_of(compiled.steps.begin(), compiled.steps.end(),
+                            [](const auto& step) { return step.name == "trace.bvh"; }));
+}
+
 TEST(TraceAuto, MakesThePictureOfTheTracerThatItTakes) {
     const scene::Scene ball = sceneFromText(kBall);
     const Frame chosen = rendered(ball, "auto");
