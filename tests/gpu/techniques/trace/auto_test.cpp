@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "framework/numerics/cases/scene_text.h"
 #include "framework/run/settings.h"
 #include "techniques/tracing/bvh_rays.h"
 #include "tests/gpu/fixture.h"
@@ -14,38 +15,13 @@
 namespace kaustik::test {
 namespace {
 
-constexpr const char* kBall = R"(
-name = "ball"
-[camera]
-position = [0, 2, 3]
-target = [0, 0, 0]
-vertical_fov_degrees = 45
-[[light]]
-name = "sun"
-type = "directional"
-direction = [0, -1, 0]
-irradiance = 1000
-[[material]]
-name = "glass"
-type = "dielectric"
-ior = 1.5
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "grey"
-size = [4, 4]
-[[object]]
-name = "ball"
-shape = "sphere"
-material = "glass"
-position = [0, 0.7, 0]
-radius = 0.4
-segments = 48
-)";
+scene::Scene ballOfGlass() {
+    const numerics::CameraText camera{{0.0, 2.0, 3.0}, {0.0, 0.0, 0.0}, 45.0, 0.01};
+    return numerics::makeScene(camera, numerics::sun({0.0, -1.0, 0.0}) +
+                                           numerics::floorPlane("floor", "grey", 4, {0, 0, 0}) +
+                                           numerics::object("ball", "sphere", "glass", {0, 0.7, 0},
+                                                            "radius = 0.4\nsegments = 48"));
+}
 
 bool runs(const Frame& frame, const std::string& pass) {
     const auto& steps = frame.renderer().compiled().steps;
@@ -59,7 +35,7 @@ Frame rendered(const scene::Scene& scene, const std::string& tracer) {
 
 TEST(TraceAuto, TracesStillScenesWhereItIsSoonerAndMovingOnesOnTheDevice) {
     const bool onProcessor = context().info().isSoftware && !lacksExactTracer();
-    const scene::Scene ball = sceneFromText(kBall);
+    const scene::Scene ball = ballOfGlass();
     const Frame still = rendered(ball, "auto");
     EXPECT_EQ(runs(still, "trace.raytraced"), onProcessor);
     EXPECT_EQ(runs(still, "trace.bvh"), !onProcessor);
@@ -71,8 +47,9 @@ TEST(TraceAuto, TracesStillScenesWhereItIsSoonerAndMovingOnesOnTheDevice) {
 
 TEST(TraceAuto, TakesTheDevicesWayWhereItIsAskedForWhatAGpuIsGiven) {
     const Registry registry = registerAll();
-    const scene::Scene ball = sceneFromText(kBall);
-    RenderSettings settings = run::makeSettings({.technique = "exact_rays"}, registry);
+    const scene::Scene ball = ballOfGlass();
+    RenderSettings settings =
+        run::makeSettings({.technique = "exact_rays", .assignments = {}}, registry);
     run::setSize(settings, {32, 24});
     settings.asOnGpu = true;
     Renderer renderer(context(), registry, ball, settings);
@@ -82,7 +59,7 @@ TEST(TraceAuto, TakesTheDevicesWayWhereItIsAskedForWhatAGpuIsGiven) {
 }
 
 TEST(TraceAuto, MakesThePictureOfTheTracerThatItTakes) {
-    const scene::Scene ball = sceneFromText(kBall);
+    const scene::Scene ball = ballOfGlass();
     const Frame chosen = rendered(ball, "auto");
     const Frame named = rendered(ball, runs(chosen, "trace.bvh") ? "bvh" : "raytraced");
     EXPECT_EQ(chosen.causticIrradiance().values, named.causticIrradiance().values);
@@ -96,14 +73,14 @@ TEST(FrameBuilder, KeepsWhatNodesMakeOfTheSceneWhenSettingsChange) {
     };
     Registry registry = registerAll();
     registry.node<TraceStage>(
-        "counting", {"By the hierarchy; counts.", "a test"}, {.reach = TracerReach::everything},
+        "counting", {"By the hierarchy; counts.", "a test", ""}, {.reach = TracerReach::everything},
         std::function(
             [&](FrameBuilder& frame, const params::NoParams&, Photons photons, Surfaces surfaces) {
                 static_cast<void>(frame.once<int>("of the frame", count(ofFrame)));
                 static_cast<void>(frame.onceForScene<int>("of the scene", count(ofScene)));
                 return hitsByBvh(frame, photons, surfaces.geometry);
             }));
-    const scene::Scene scene = sceneFromText(kBall);
+    const scene::Scene scene = ballOfGlass();
     RenderSettings settings = run::makeSettings(
         {.technique = "exact_rays", .assignments = {{"trace", "counting", "test"}}}, registry);
     run::setSize(settings, {32, 24});
