@@ -78,10 +78,11 @@ def jackknife(means, frames: int, blocks: int = BLOCKS) -> tuple[np.ndarray, np.
     """Of a function of which frames count: its value of all, and the standard error by leaving out each block of consecutive frames in turn."""
     blocks = max(min(blocks, frames // 2), 1)  # of two frames at least: one alone has no next one
     block = np.arange(frames) * blocks // frames
+    of_all = means(np.full(frames, True))
     if blocks == 1:
-        return means(np.full(frames, True)), np.full_like(means(np.full(frames, True)), np.nan)
+        return of_all, np.full_like(of_all, np.nan)
     without = np.array([means(block != left_out) for left_out in range(blocks)])
-    return means(np.full(frames, True)), np.sqrt((blocks - 1) / blocks * ((without - without.mean(axis=0)) ** 2).sum(axis=0))
+    return of_all, np.sqrt((blocks - 1) / blocks * ((without - without.mean(axis=0)) ** 2).sum(axis=0))
 
 
 def traced(scene: str, options) -> Truth:
