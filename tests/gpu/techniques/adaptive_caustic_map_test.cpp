@@ -13,6 +13,7 @@
 
 #include "framework/core/error.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "tests/gpu/fixture.h"
 #include "tests/gpu/techniques/caustic_map_frame.h"
 
 namespace kaustik::test {
@@ -126,6 +127,34 @@ TEST(AdaptivePhotons, DependNeitherOnBatchesNorOnTheWayInWhichTheyAreChosen) {
         EXPECT_EQ(counts.deepest, noted.deepest);
         EXPECT_LE(std::abs(parts.renderer().ledger().balance()), 1e-6);
     }
+}
+
+// Squares of pixels that keep wide beams' light are made once, however often a loop comes by.
+TEST(AdaptivePhotons, LeaveTheLightOfWideBeamsInSquaresUntilTheLastBatch) {
+    const scene::Scene scene = ballScene(lamp("lamp", {0.5, 3.0, 0.3}));
+    const auto rendered = [&](const char* memory) {
+        const Settings settings = {{"refine.finest", "128"},     {"refine.start", "16"},
+                                   {"refine.check", "32"},       {"refine.metric", "traversal"},
+                                   {"refine.memory", memory},    {"emit.deferred.size", "256"},
+                                   {"reconstruct", "triangles"}, {"reconstruct.space", "screen"},
+                                   {"gather", "screen"}};
+        return Frame(scene, 400, 300, settings, {}, false, "adaptive_caustic_map");
+    };
+    const Frame whole = rendered("64");
+    const Frame parts = rendered("1");
+    const auto batches = [](const Frame& frame) {
+        return frame.renderer()
+            .buffer(frame.renderer().outputs().cells)
+            .read<CellCounts>()
+            .front()
+            .batches;
+    };
+    EXPECT_EQ(batches(whole), 1u);
+    EXPECT_GT(batches(parts), 1u);
+    EXPECT_GT(whole.causticIrradiance().sum(), 0.0);
+    EXPECT_EQ(whole.causticIrradiance().values, parts.causticIrradiance().values);
+    EXPECT_LE(std::abs(whole.renderer().ledger().balance()), 1e-6);
+    EXPECT_LE(std::abs(parts.renderer().ledger().balance()), 1e-6);
 }
 
 // What is drawn at random is drawn by the cell, of a probe as of a photon.
