@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/reference/embree_scene.h"
+#include "framework/scene/dielectrics.h"
 
 namespace kaustik::reference {
 
@@ -26,15 +27,31 @@ struct FirstHit {
     glm::dvec3 position{0.0};       // in the space of the photons
     glm::dvec3 shadingNormal{0.0};  // unit, outward, in the space of the photons
     glm::dvec3 geometricNormal{0.0};
-    glm::dmat3 turning{0.0};     // of the shading normal with the position, 1/m
     std::uint32_t material = 0;  // index + 1; 0: none
     TriangleId triangle;
     [[nodiscard]] bool exists() const { return material != 0; }
 };
 
-// One hit a photon, in their order; the same at any number of threads (0: all). `toWorld`: a rigid
-// motion, the identity for photons in world space or the inverse of RasterView::worldToView for
-// those of the GPU. A photon that is no number hits nothing.
+// Finds them one by one, from any number of threads. `toWorld`: a rigid motion, the identity for
+// photons in world space or the inverse of RasterView::worldToView for those of the GPU. The scene
+// must outlive this.
+class FirstHits {
+  public:
+    explicit FirstHits(const EmbreeScene& scene, const glm::dmat4& toWorld = glm::dmat4(1.0));
+    // A photon that is no number hits nothing.
+    [[nodiscard]] FirstHit of(const AuditPhoton& photon) const;
+    // How the shading normal turns with the position at a hit that exists, 1/m, in the space of the
+    // photons (EmbreeScene::normalTurning).
+    [[nodiscard]] glm::dmat3 turningAt(const FirstHit& hit) const;
+
+  private:
+    const EmbreeScene& scene_;
+    scene::Dielectrics dielectrics_;
+    glm::dmat3 rotation_;
+    glm::dvec3 offset_;  // to the scene's local space
+};
+
+// One hit a photon, in their order; the same at any number of threads (0: all).
 [[nodiscard]] std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene,
                                                    std::span<const AuditPhoton> photons,
                                                    const glm::dmat4& toWorld = glm::dmat4(1.0),

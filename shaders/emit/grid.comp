@@ -111,17 +111,32 @@ CellQuarter quarterAround(ivec2 cell, ivec2 side, uint object) {
     return quarter;
 }
 
+// Whether the light sees the object through the middles of all cells around.
+bool isAmongCells(ivec2 cell, uint object) {
+    bool isAmong = true;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 side = ivec2(i % 3, i / 3) - 1;
+        isAmong = isAmong && seenAt(cell, side * subcells).x == object;
+    }
+    return isAmong;
+}
+
 uvec2 extentOf(ivec2 cell, uint object) {
+    bool isKnown = isAmongCells(cell, object);
+    for (uint i = 0u; i < 4u; ++i) isKnown = isKnown && !isLeftOut(cell, i);
     CellQuarter quarters[4];
     bool isWhole = true;
-    for (uint i = 0u; i < 4u; ++i) {
-        if (isLeftOut(cell, i)) {
-            quarters[i] = kNoQuarter;
+    uint quarter = 0u;
+    // A software rasteriser can't leave out a branch, but leaves a loop as soon as all threads may.
+    do {
+        if (isKnown) break;
+        if (isLeftOut(cell, quarter)) {
+            quarters[quarter] = kNoQuarter;
         } else {
-            quarters[i] = quarterAround(cell, ivec2(sideOfQuarter(i)), object);
+            quarters[quarter] = quarterAround(cell, ivec2(sideOfQuarter(quarter)), object);
         }
-        isWhole = isWhole && quarters[i] == kWholeQuarter;
-    }
+        isWhole = isWhole && quarters[quarter] == kWholeQuarter;
+    } while (++quarter < 4u);
     return isWhole ? uvec2(0u) : packedExtent(quarters);
 }
 

@@ -28,11 +28,13 @@ const uint kKind = kPatchesOfBeams;
 // Pixels of the rectangles around a patch, or each of its copies, for one thread.
 const int kMaxPixelsPerThread = 100;
 
-void coverPatch(Patch whole) {
+// What the shares that are to be deposited add up to; 0: none are.
+float findPatch(Patch whole, out Found found) {
+    found = nothingFound();
 #ifndef MANY_VIEWS
     if (!isBeforeView(whole)) {
         ledgerAdd(kAccountBehind, whole.flux);
-        return;
+        return 0.0;
     }
 #endif
     Patch there;
@@ -46,29 +48,30 @@ void coverPatch(Patch whole) {
         pixels += size.x * size.y;
     }
     if (pixels > kMaxPixelsPerThread) {
-        uint place = atomicAdd(widePatches.count, 1u);
-        if (place < uint(wideCapacity)) {
-            widePatchList[place] = packedPatch(whole);
-            return;
+        uint kind = kindOfWide(whole);
+        uint number = atomicAdd(widePatches[kind].count, 1u);
+        if (number < uint(wideCapacity)) {
+            widePatchList[widePlace(kind, number, uint(wideCapacity))] = packedPatch(whole);
+            return 0.0;
         }
     }
-    Found found = nothingFound();
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);
-        findParts(there, onto, 0, 1, found);
+        findParts(onto, 0, 1, found);
     }
     // The faces of a cube see in all directions.
     PatchBalance balance = balanceOf(found.parts, viewCount > 1 || onto.isWhole);
     account(whole, balance);
     if (balance.total <= 0.0) depositNear(whole);
-    if (balance.on <= 0.0) return;
+    if (balance.on <= 0.0) return 0.0;
     bookMapExcess(whole, found.excess / balance.total);
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);
-        depositParts(there, onto, 0, 1, balance.total, found);
+        depositRest(there, onto, 0, 1, balance.total, found);
     }
+    return balance.total;
 }
 
 #ifdef LIGHT_SPREAD
@@ -86,8 +89,14 @@ void coverCopies(uint item, uint thread) {
     Patch whole = patchOf(item);
     Copies copies = copiesOfPatch(whole, ivec2(photonTexel(photons, item / kPatchParts)));
     int step = copies.stride * int(kThreadsOfCopies);
-    for (int i = copies.first + copies.stride * int(thread); i < copies.places; i += step)
-        coverPatch(copyOf(whole, copies, i));
+    for (int i = copies.first + copies.stride * int(thread); i < copies.places; i += step) {
+        Patch copy = copyOf(whole, copies, i);
+        Found found;
+        float total = findPatch(copy, found);
+#ifndef MANY_VIEWS
+        depositKept(copy, total, found);
+#endif
+    }
 }
 
 void threadMain() {
@@ -98,8 +107,10 @@ void threadMain() {
     }
 }
 #else
-void cover(uint item) {
-    Patch whole = patchOf(item);
+// As findPatch().
+float findItem(uint item, out Patch whole, out Found found) {
+    found = nothingFound();
+    whole = patchOf(item);
     ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
 #ifndef JOINED_PATCHES
     // What neighbours share out is covered in each of their batches, and counts in the photon's own.
@@ -110,20 +121,27 @@ void cover(uint item) {
     if (isOpen(material - 1u) &&
         !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {
         ledgerAdd(kAccountHidden, whole.flux);
-        return;
+        return 0.0;
     }
 #ifdef LIGHT_SPREAD
     if (copiesOfPatch(whole, photon).places > 1) {
         uint number = atomicAdd(copiedPatches[kKind].count, 1u);
         patchList[copiedPatchPlace(kKind, number, uint(listCapacity))] = item;
-        return;
+        return 0.0;
     }
 #endif
-    coverPatch(whole);
+    return findPatch(whole, found);
 }
 
 void threadMain() {
+    Patch whole;
+    Found found = nothingFound();
+    float total = 0.0;
     uint index = threadNumber();
-    if (index < patches[kKind].count) cover(patchList[patchPlace(kKind, index, uint(listCapacity))]);
+    if (index < patches[kKind].count)
+        total = findItem(patchList[patchPlace(kKind, index, uint(listCapacity))], whole, found);
+#ifndef MANY_VIEWS
+    depositKept(whole, total, found);
+#endif
 }
 #endif

@@ -8,46 +8,54 @@
 const uint kMaxKept = 24u;
 shared uint keptPlaces[64u * kMaxKept];
 shared float keptShares[64u * kMaxKept];
-uint keptAt(uint number) { return 64u * number + gl_LocalInvocationIndex; }
+uint keptAt(uint thread, uint number) { return 64u * number + thread; }
 #endif
 
 // By one thread.
 struct Found {
     PatchParts parts;
-    float excess;  // of what is stored over what is lit
-    uint kept;     // places
-    Walk rest;     // where it was when there was no more room
+    float excess;      // of what is stored over what is lit
+    uint keptPixels;   // from the first place on
+    uint keptSquares;  // from the last one down
+    Walk rest;         // where it was when there was no more room
 };
 Found nothingFound() {
     Found found;
     found.parts = PatchParts(0.0, 0.0, 0.0);
     found.excess = 0.0;
-    found.kept = 0u;
+    found.keptPixels = 0u;
+    found.keptSquares = 0u;
     return found;
 }
 
-// A pixel, or a square of pixels.
-const uint kBlockPlace = 0x80000000u;
-uint placeOf(Walk walk) {
-#ifdef WALKS_BLOCKS
-    if (isAtBlock(walk)) return kBlockPlace | uint(blockAt(walk.pixel));
+#ifndef MANY_VIEWS
+bool isFull(Found found) { return found.keptPixels + found.keptSquares == kMaxKept; }
 #endif
-    return uint(walk.pixel.y) << 16u | uint(walk.pixel.x);
-}
+
+uint placeOf(ivec2 pixel) { return uint(pixel.y) << 16u | uint(pixel.x); }
 
 void keep(inout Found found, Walk walk, float stored) {
 #ifndef MANY_VIEWS
-    if (stored <= 0.0 || found.kept == kMaxKept) return;
-    keptPlaces[keptAt(found.kept)] = placeOf(walk);
-    keptShares[keptAt(found.kept)] = stored;
-    ++found.kept;
-    if (found.kept == kMaxKept) found.rest = walk;
+    if (stored <= 0.0 || isFull(found)) return;
+    uint place = placeOf(walk.pixel);
+    uint number = found.keptPixels;
+#ifdef WALKS_BLOCKS
+    if (isAtBlock(walk)) {
+        place = uint(blockAt(walk.pixel));
+        number = kMaxKept - 1u - found.keptSquares++;
+    } else
+#endif
+        ++found.keptPixels;
+    uint at = keptAt(gl_LocalInvocationIndex, number);
+    keptPlaces[at] = place;
+    keptShares[at] = stored;
+    if (isFull(found)) found.rest = walk;
 #endif
 }
 
 // What is on every `step`th line from the first one on.
-void findParts(Patch whole, PatchOnScreen onto, int first, int step, inout Found found) {
-    Walk walk = walkOver(whole, onto, first, step);
+void findParts(PatchOnScreen onto, int first, int step, inout Found found) {
+    Walk walk = walkOver(onto, first, step);
     PlanePixel sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
     bool isThere = goOn(walk, onto);
     do {
@@ -71,30 +79,113 @@ void addToBlock(uint block, int channel, float units) {
     uint above = highAddend(words, atomicAdd(pixelBlocks[block].sums[2 * channel], words.x));
     if (above > 0u) atomicAdd(pixelBlocks[block].sums[2 * channel + 1], above);
 }
+
+void depositInSquare(uint block, vec3 flux) {
+    vec3 units = flux * ledgerUnitsPerWatt;
+    for (int channel = 0; channel < 3; ++channel) addToBlock(block, channel, units[channel]);
+}
 #endif
 
-void depositAt(Patch whole, uint place, float share) {
-#ifdef WALKS_BLOCKS
-    if ((place & kBlockPlace) != 0u) {
-        vec3 units = whole.flux * (share * ledgerUnitsPerWatt);
-        for (int channel = 0; channel < 3; ++channel)
-            addToBlock(place & ~kBlockPlace, channel, units[channel]);
-        return;
-    }
+#ifndef MANY_VIEWS
+// Threads that deposit together what each has kept: one that has found much would keep the others
+// waiting.
+#ifdef COPIES
+const uint kKeepers = 1u;
+#else
+const uint kKeepers = 8u;
 #endif
-    deposit(whole, ivec2(place & 0xffffu, place >> 16u), share);
+struct KeptFlux {
+    vec3 flux;  // W, over what the shares add up to
+    vec3 direction;
+};
+shared KeptFlux keptFlux[64];
+shared uint keptCounts[64];
+
+// How many pixels, and above kSquares squares, the threads up to each have.
+struct KeptCounts {
+    uint first;
+    uint upTo[kKeepers];
+};
+const uint kSquares = 16u;
+
+KeptCounts countKept(uint pixels, uint squares) {
+    keptCounts[gl_LocalInvocationIndex] = squares << kSquares | pixels;
+#ifndef COPIES
+    barrier();
+#endif
+    KeptCounts counts;
+    counts.first = gl_LocalInvocationIndex / kKeepers * kKeepers;
+    uint sum = 0u;
+    for (uint i = 0u; i < kKeepers; ++i) {
+        sum += keptCounts[counts.first + i];
+        counts.upTo[i] = sum;
+    }
+    return counts;
 }
 
-// Of shares that add up to `total`.
-void depositParts(Patch whole, PatchOnScreen onto, int first, int step, float total, Found found) {
-#ifdef MANY_VIEWS
-    Walk walk = walkOver(whole, onto, first, step);
-#else
-    uint i = 0u;
+uint countOf(uint both, uint kind) { return both >> kind & 0xffffu; }
+
+// How many they have together.
+uint countOf(KeptCounts counts, uint kind) { return countOf(counts.upTo[kKeepers - 1u], kind); }
+
+// The thread that has one of them, and its number there.
+uvec2 keeperOf(KeptCounts counts, uint kind, uint index) {
+    uvec2 keeper = uvec2(counts.first, index);
+    for (uint i = 0u; i + 1u < kKeepers; ++i) {
+        uint before = countOf(counts.upTo[i], kind);
+        if (index >= before) keeper = uvec2(counts.first + i + 1u, index - before);
+    }
+    return keeper;
+}
+
+void depositKeptPixel(uvec2 keeper) {
+    uint at = keptAt(keeper.x, keeper.y);
+    KeptFlux from = keptFlux[keeper.x];
+    uint place = keptPlaces[at];
+    depositFlux(ivec2(place & 0xffffu, place >> 16u), from.flux * keptShares[at],
+                directionToEye(from.direction));
+}
+
+#ifdef WALKS_BLOCKS
+void depositKeptSquare(uvec2 keeper) {
+    uint at = keptAt(keeper.x, kMaxKept - 1u - keeper.y);
+    depositInSquare(keptPlaces[at], keptFlux[keeper.x].flux * keptShares[at]);
+}
+#endif
+
+// By all threads of a workgroup at once (COPIES: by each alone). `found` and `total`, which the
+// shares add up to, are of what the thread itself has found; 0: nothing is to be deposited.
+void depositKept(Patch whole, float total, Found found) {
+    bool isDeposited = total > 0.0;
+    if (isDeposited)
+        keptFlux[gl_LocalInvocationIndex] = KeptFlux(whole.flux / total, whole.side.direction);
+    KeptCounts counts = countKept(isDeposited ? found.keptPixels : 0u,
+                                  isDeposited ? found.keptSquares : 0u);
+    // They ask within, since a software rasteriser goes through a loop at least once.
+    uint first = gl_LocalInvocationIndex % kKeepers;
+    uint pixels = countOf(counts, 0u);
+    uint i = first;
     do {
-        if (i < found.kept) depositAt(whole, keptPlaces[keptAt(i)], keptShares[keptAt(i)] / total);
-    } while (++i < found.kept);
-    if (found.kept < kMaxKept) return;
+        if (i < pixels) depositKeptPixel(keeperOf(counts, 0u, i));
+        i += kKeepers;
+    } while (i < pixels);
+#ifdef WALKS_BLOCKS
+    uint squares = countOf(counts, kSquares);
+    i = first;
+    do {
+        if (i < squares) depositKeptSquare(keeperOf(counts, kSquares, i));
+        i += kKeepers;
+    } while (i < squares);
+#endif
+}
+#endif
+
+// What has not been kept, by each thread alone.
+void depositRest(Patch whole, PatchOnScreen onto, int first, int step, float total, Found found) {
+#ifdef MANY_VIEWS
+    Walk walk = walkOver(onto, first, step);
+#else
+    if (!isFull(found)) return;
     Walk walk = found.rest;
 #endif
     PlanePixel sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
@@ -103,7 +194,13 @@ void depositParts(Patch whole, PatchOnScreen onto, int first, int step, float to
         if (!isThere) break;
         addPlace(onto, walk, sum);
         if (isAtLastPart(walk)) {
-            if (sum.stored > 0.0) depositAt(whole, placeOf(walk), sum.stored / total);
+            float share = sum.stored / total;
+#ifdef WALKS_BLOCKS
+            if (sum.stored > 0.0 && isAtBlock(walk)) {
+                depositInSquare(uint(blockAt(walk.pixel)), whole.flux * share);
+            } else
+#endif
+                if (sum.stored > 0.0) deposit(whole, walk.pixel, share);
             sum = PlanePixel(0.0, 0.0, 0.0, 0.0);
         }
         isThere = goOn(walk, onto);

@@ -10,7 +10,7 @@ const int kCopied = 2;
 const int kWide = 3;
 uniform int listed;  // what has been, up to now
 
-uniform int wideCapacity;
+uniform int wideCapacity;  // of each kind
 
 void main() {
     if (listed == kNone) {
@@ -18,7 +18,7 @@ void main() {
             patches[kind].count = 0u;
             copiedPatches[kind].count = 0u;
         }
-        widePatches.count = 0u;
+        for (uint kind = 0u; kind < kWideKinds; ++kind) widePatches[kind].count = 0u;
     } else if (listed == kListed) {
         for (uint kind = 0u; kind < kPatchKinds; ++kind)
             setGroups(patches[kind], patches[kind].count);
@@ -27,7 +27,9 @@ void main() {
             setGroups(copiedPatches[kind], kThreadsOfCopies * copiedPatches[kind].count);
     } else {
         // The others found no room and are covered already.
-        widePatches.count = min(widePatches.count, uint(wideCapacity));
-        setGroups(widePatches, kThreadsOfPatch * widePatches.count);
+        for (uint kind = 0u; kind < kWideKinds; ++kind) {
+            widePatches[kind].count = min(widePatches[kind].count, uint(wideCapacity));
+            setGroups(widePatches[kind], kThreadsOfPatch * widePatches[kind].count);
+        }
     }
 }

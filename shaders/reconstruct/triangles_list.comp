@@ -59,7 +59,6 @@ void addAreas(Neighbourhood around, uint joined, inout VertexShares shares) {
         bool isOfSecond = own != 1u;
         shares.area += (isOfFirst ? areas.x : 0.0) + (isOfSecond ? areas.y : 0.0);
         shares.triangles += (isOfFirst ? 1.0 : 0.0) + (isOfSecond ? 1.0 : 0.0);
-        shares.cells += 1.0;
     }
 }
 
@@ -75,23 +74,58 @@ Landing landingOf(uint photon) {
     return Landing(originAt(texel).path, uint(surface.w), surface.xyz);
 }
 
-// Whether the light of four neighbours comes down on more than one surface.
-bool isAtCrease(Neighbourhood around, uint quarter) {
-    uint found[4];
-    if (!photonsTowards(around, quarter, found)) return false;
-    Landing first = landingOf(found[0] - 1u);
-    bool isOne = true;
-    for (uint i = 1u; i < 4u; ++i) {
-        Landing corner = landingOf(found[i] - 1u);
-        if (corner.path != first.path) return false;
-        isOne = isOne && corner.material == first.material && dot(corner.normal, first.normal) >= 0.5;
-    }
-    return !isOne;
+// Of all of a neighbourhood, the photon's own where there is none.
+struct Landings {
+    Landing all[9];
+};
+Landings landingsOf(Neighbourhood around) {
+    Landings landings;
+    for (int i = 0; i < 9; ++i)
+        landings.all[i] = landingOf((around.photons[i] > 0u ? around.photons[i] : around.photons[4]) - 1u);
+    return landings;
 }
 
-void list(uint index, uint part, uint kind) {
-    uint place = patchPlace(kind, atomicAdd(patches[kind].count, 1u), uint(listCapacity));
-    patchList[place] = index * kPatchParts + part;
+// Whether the light of four neighbours comes down on more than one surface.
+bool isAtCrease(Neighbourhood around, Landings landings, uint quarter) {
+    uint corner = (quarter & 1u) + 3u * (quarter >> 1u);
+    Landing first = landings.all[corner];
+    bool isOne = true;
+    bool isWhole = true;
+    for (uint i = 0u; i < 4u; ++i) {
+        uint at = corner + (i & 1u) + 3u * (i >> 1u);
+        Landing landing = landings.all[at];
+        isWhole = isWhole && around.photons[at] > 0u && landing.path == first.path;
+        isOne = isOne && landing.material == first.material && dot(landing.normal, first.normal) >= 0.5;
+    }
+    return isWhole && !isOne;
+}
+
+uint kindOf(uint part) {
+    if (part == kPatchJoined) return kPatchesJoined;
+    return part >= kPatchCrease && part < kPatchCrease + 4u ? kPatchesAtCreases : kPatchesOfBeams;
+}
+
+// `parts`: their bits.
+void list(uint index, uint parts) {
+    do {
+        if (parts == 0u) break;
+        uint part = uint(findLSB(parts));
+        uint kind = kindOf(part);
+        uint number = atomicAdd(patches[kind].count, 1u);
+        patchList[patchPlace(kind, number, uint(listCapacity))] = index * kPatchParts + part;
+        parts &= parts - 1u;
+    } while (parts != 0u);
+}
+
+// Of quarters that are whole two next to each other are one half, as they would be together.
+uint withHalves(uint parts, uint wholeQuarters) {
+    for (uint i = 0u; i < 4u; ++i) {
+        uint quarters = quartersOfHalf(i);
+        if ((wholeQuarters & quarters) != quarters) continue;
+        wholeQuarters &= ~quarters;
+        parts = (parts & ~(quarters << kPatchQuarter)) | 1u << (kPatchHalf + i);
+    }
+    return parts;
 }
 
 void threadMain() {
@@ -104,14 +138,14 @@ void threadMain() {
     PhotonOrigin origin = originAt(texel);
     bool isOther = isFromOtherBatch(origin);
     Neighbourhood around = neighbourhoodOf(origin);
+    Landings landings = landingsOf(around);
     Arrival own = arrivalOf(texel);
-    // By the corner: those that are joined, and what is listed of the rest.
-    uint joined = 0u;
-    uint parts[4];
-    uint count = 0u;
+    uint joined = 0u;  // bits by the corner
+    uint parts = 0u;
+    uint wholeQuarters = 0u;
     float whole = 0.0;
     float discarded = 0.0;
-    bool isPlain = true;
+    bool isPlain = own.extent == uvec2(0u);
     for (uint i = 0u; i < 4u; ++i) {
         uint lowerLeft = around.photons[(i & 1u) + 3u * (i >> 1u)];
         if (lowerLeft > 0u && cellJoins[lowerLeft - 1u] == 1u) {
@@ -119,33 +153,32 @@ void threadMain() {
             whole += 1.0;
             continue;
         }
-        bool isCrease = !isLeftOut(own, i) && isAtCrease(around, i);
-        isPlain = isPlain && !isCrease && own.extent == uvec2(0u);
+        bool isCrease = !isLeftOut(own, i) && isAtCrease(around, landings, i);
         float area = areaOf(cornersOf(own, i));
         whole += area;
         bool isListed = isCrease || area > 0.0;
         if (reconstruct_triangles_unjoined == reconstruct_triangles_unjoined_discard) {
             discarded += area;
         } else if (isListed) {
-            parts[count++] = (isCrease ? kPatchCrease : kPatchQuarter) + i;
+            parts |= 1u << ((isCrease ? kPatchCrease : kPatchQuarter) + i);
+            if (!isCrease && area > 0.9999) wholeQuarters |= 1u << i;
         }
     }
     // What the parts that light can come through take is all of its flux.
-    VertexShares shares = VertexShares(whole > 0.0 ? 1.0 / whole : 0.0, 0.0, 0.0, 0.0);
+    VertexShares shares = VertexShares(whole > 0.0 ? 1.0 / whole : 0.0, 0.0, 0.0,
+                                       float(bitCount(joined)));
     if (reconstruct_triangles_shading == reconstruct_triangles_shading_vertices)
         addAreas(around, joined, shares);
     photonShares[index] = shares;
     if (ofMap <= 0.0 || isOther) return;
     if (discarded > 0.0)
         ledgerAdd(kAccountDiscardedTriangle, flux.rgb * (ofMap * shares.quarter * discarded));
-    // Where cells may be merged, their own pass lists them.
-    if ((joined & 8u) != 0u && reconstruct_triangles_merge <= 0.0)
-        list(index, kPatchJoined, kPatchesJoined);
-    // A cell of its own is covered at once.
-    if (joined == 0u && isPlain && count == 4u) {
-        list(index, kPatchBeam, kPatchesOfBeams);
-        return;
+    if (isPlain) {
+        // A cell of its own is covered at once.
+        const uint kAllQuarters = 0xfu << kPatchQuarter;
+        parts = parts == kAllQuarters ? 1u << kPatchBeam : withHalves(parts, wholeQuarters);
     }
-    for (uint i = 0u; i < count; ++i)
-        list(index, parts[i], parts[i] >= kPatchCrease ? kPatchesAtCreases : kPatchesOfBeams);
+    // Where cells may be merged, their own pass lists them.
+    if ((joined & 8u) != 0u && reconstruct_triangles_merge <= 0.0) parts |= 1u << kPatchJoined;
+    list(index, parts);
 }

@@ -9,11 +9,16 @@ const uint kPatchesOfBeams = 1u;
 const uint kPatchesAtCreases = 2u;
 const uint kPatchKinds = 3u;
 
+// Wide ones go to pixels or to squares of them, which have as little in common.
+const uint kWideToPixels = 0u;
+const uint kWideToSquares = 1u;
+const uint kWideKinds = 2u;
+
 layout(std430) buffer Patches {
     ThreadList patches[kPatchKinds];
     ThreadList copiedPatches[kPatchKinds];  // of those, what is laid more than once
                                             // (triangles_spread.glsl)
-    ThreadList widePatches;                 // and what is wide (triangles_wide.glsl)
+    ThreadList widePatches[kWideKinds];     // and what is wide (triangles_wide.glsl)
     uint patchList[];
 };
 
@@ -29,6 +34,9 @@ uint copiedPatchPlace(uint kind, uint number, uint capacity) {
     return 5u * capacity + patchPlace(kind, number, capacity);
 }
 
+// `capacity`: of each kind.
+uint widePlace(uint kind, uint number, uint capacity) { return kind * capacity + number; }
+
 // That share a patch's copies: Mesa's software rasteriser has a thread turn no more than 65,535 times
 // in all of its loops.
 const uint kThreadsOfCopies = 16u;
@@ -41,8 +49,15 @@ const uint kPatchBeam = 4u;     // all of its beam
 const uint kPatchJoined = 5u;   // what it is the lower left corner of
 const uint kPatchCrease = 8u;   // 8 to 11: the same of where light comes down on several surfaces
 const uint kPatchMerged = 12u;  // 12 to 15: 2, 4, 8 and 16 such cells along each side, as one
+const uint kPatchHalf = 12u;    // of beams 12 to 15: halves of its beam, below, above, left and right
 const uint kMaxMerges = 4u;
 const uint kPatchParts = 16u;
+
+// Bits of the quarters that a half is made of.
+uint quartersOfHalf(uint side) {
+    const uint kQuarters[4] = uint[4](3u, 12u, 5u, 10u);
+    return kQuarters[side];
+}
 
 // What a photon's flux is shared out by.
 struct VertexShares {

@@ -212,18 +212,31 @@ Patch wholePatchOf(uint index, uint part) {
     return patchAtCrease(originAt(ivec2(photonTexel(photons, index))), part - kPatchCrease);
 }
 #else
+vec2[4] endsOfHalf(uint side) {
+    vec2 low = vec2(side == 3u ? 0.0 : -0.5, side == 1u ? 0.0 : -0.5);
+    vec2 high = vec2(side == 2u ? 0.0 : 0.5, side == 0u ? 0.0 : 0.5);
+    return vec2[4](low, vec2(high.x, low.y), high, vec2(low.x, high.y));
+}
+
 Patch wholePatchOf(uint index, uint part) {
     Arrival own = arrivalOf(ivec2(photonTexel(photons, index)));
-    if (part == kPatchBeam) {
-        vec2 ends[4] = vec2[4](vec2(-0.5), vec2(0.5, -0.5), vec2(0.5), vec2(-0.5, 0.5));
-        for (int i = 0; i < 4; ++i) ends[i] *= reachTowards(own, ends[i]);
-        Patch made = patchOfBeam(own, ends, 0.5);
-        made.isAlone = true;
-        return made;
-    }
-    own.flux *= fluxShare(own, index, part);
+    vec2 ends[4];
     // Photons at a border reach beyond their cells.
-    return patchOfQuarter(own, cornersOf(own, part), own.extent == uvec2(0u) ? 0.5 : 1.0);
+    float farthest = own.extent == uvec2(0u) ? 0.5 : 1.0;
+    if (part == kPatchBeam) {
+        ends = vec2[4](vec2(-0.5), vec2(0.5, -0.5), vec2(0.5), vec2(-0.5, 0.5));
+        for (int i = 0; i < 4; ++i) ends[i] *= reachTowards(own, ends[i]);
+    } else if (part >= kPatchHalf) {
+        own.flux *= 2.0 * photonShares[index].quarter;
+        ends = endsOfHalf(part - kPatchHalf);
+    } else {
+        own.flux *= fluxShare(own, index, part);
+        QuarterCorners corners = cornersOf(own, part);
+        ends = vec2[4](vec2(0.0), corners.along, corners.across, corners.up);
+    }
+    Patch made = patchOfBeam(own, ends, farthest);
+    made.isAlone = photonShares[index].cells == 0.0;
+    return made;
 }
 #endif
 

@@ -19,8 +19,7 @@ struct Walk {
     PixelParts parts;
     int part;
 #ifdef WALKS_BLOCKS
-    bool areBlocks;  // its lines are of squares
-    vec4 receiver;   // of the square that the pixel is the corner of, or one of
+    vec4 receiver;  // of the square that the pixel is the corner of, or one of
 #endif
 };
 
@@ -38,7 +37,7 @@ ivec2 blockSpanOf(PatchLines lines, int line) {
 #endif
 
 // Over every `step`th line from the first one on; goOn() brings it to the first place.
-Walk walkOver(Patch whole, PatchOnScreen onto, int first, int step) {
+Walk walkOver(PatchOnScreen onto, int first, int step) {
     Walk walk;
     walk.lines = linesOf(onto);
     walk.line = walk.lines.low.y;
@@ -47,12 +46,9 @@ Walk walkOver(Patch whole, PatchOnScreen onto, int first, int step) {
     walk.parts = PixelParts(1, 1.0, 0u, vec2(0.0));
     walk.part = 0;
 #ifdef WALKS_BLOCKS
-    walk.areBlocks = whole.isAlone;
+    walk.line /= kBlockSide;
+    walk.last /= kBlockSide;
     walk.receiver = vec4(0.0);
-    if (walk.areBlocks) {
-        walk.line /= kBlockSide;
-        walk.last /= kBlockSide;
-    }
 #endif
     walk.line += first - step;
     walk.step = step;
@@ -64,7 +60,7 @@ Walk walkOver(Patch whole, PatchOnScreen onto, int first, int step) {
 // Whether it is at a square that shows one surface.
 bool isAtBlock(Walk walk) {
 #ifdef WALKS_BLOCKS
-    return walk.areBlocks && walk.receiver.y >= 0.0;
+    return walk.receiver.y >= 0.0;
 #else
     return false;
 #endif
@@ -73,7 +69,7 @@ bool isAtBlock(Walk walk) {
 #ifdef WALKS_BLOCKS
 // To the next pixel of a square that shows several surfaces; false: it has no other.
 bool goOnInBlock(inout Walk walk, PatchOnScreen onto) {
-    if (!walk.areBlocks || walk.receiver.y >= 0.0) return false;
+    if (isAtBlock(walk)) return false;
     ivec2 corner = walk.pixel / kBlockSide * kBlockSide;
     ivec2 high = min(corner + kBlockSide - 1, onto.high);
     if (walk.pixel.x < high.x) {
@@ -90,9 +86,10 @@ bool goOnInBlock(inout Walk walk, PatchOnScreen onto) {
 
 ivec2 spanOf(Walk walk) {
 #ifdef WALKS_BLOCKS
-    if (walk.areBlocks) return blockSpanOf(walk.lines, walk.line);
-#endif
+    return blockSpanOf(walk.lines, walk.line);
+#else
     return spanOf(walk.lines, walk.line);
+#endif
 }
 
 // False: it has been everywhere.
@@ -114,13 +111,11 @@ bool goOn(inout Walk walk, PatchOnScreen onto) {
     } while (walk.place > walk.span.y);
     walk.pixel = pixelOnLine(walk.lines, walk.line, walk.place);
 #ifdef WALKS_BLOCKS
-    if (walk.areBlocks) {
-        walk.pixel *= kBlockSide;
-        walk.receiver = pixelBlocks[blockAt(walk.pixel)].receiver;
-        walk.parts = PixelParts(1, 1.0, 0u, walk.receiver.xy);
-        if (isAtBlock(walk)) return true;
-        walk.pixel = max(walk.pixel, onto.low);
-    }
+    walk.pixel *= kBlockSide;
+    walk.receiver = pixelBlocks[blockAt(walk.pixel)].receiver;
+    walk.parts = PixelParts(1, 1.0, 0u, walk.receiver.xy);
+    if (isAtBlock(walk)) return true;
+    walk.pixel = max(walk.pixel, onto.low);
 #endif
     walk.parts = partsOf(walk.pixel);
     return true;

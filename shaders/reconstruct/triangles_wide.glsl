@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Patches that cover many pixels, made once and kept for those who cover them.
 #include "reconstruct/triangles_patch.glsl"
+#include "reconstruct/triangles_patch_list.glsl"
 
 struct WidePatch {
     vec4 corners[4];  // xyz, m; w: the density there
@@ -15,6 +16,15 @@ const uint kWideAlone = 4u;
 layout(std430) buffer WidePatches {
     WidePatch widePatchList[];
 };
+
+// Where a wide beam ends is known no better than by a square of pixels, unless what is joined begins
+// there.
+uint kindOfWide(Patch whole) {
+#ifdef PIXEL_BLOCKS
+    if (whole.isAlone) return kWideToSquares;
+#endif
+    return kWideToPixels;
+}
 
 WidePatch packedPatch(Patch whole) {
     WidePatch made;

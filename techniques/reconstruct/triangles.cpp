@@ -35,10 +35,12 @@ bool widensByLights(const FrameFacts& facts) {
 
 // The lists of shaders/reconstruct/triangles_patch_list.glsl.
 enum PatchKind { joined, ofBeams, atCreases };
-// Then come those of each kind that are laid more than once, and wide ones.
+// Then come those of each kind that are laid more than once, and wide ones of two kinds.
 constexpr std::size_t kPatchKinds = 3;
 constexpr std::size_t kWidePatches = 2 * kPatchKinds;
-constexpr std::size_t kPatchCounts = kWidePatches + 1;
+enum WideKind : std::size_t { toPixels, toSquares };
+constexpr std::size_t kWideKinds = 2;
+constexpr std::size_t kPatchCounts = kWidePatches + kWideKinds;
 // What has been listed, for triangles_groups.comp.
 enum Listed : int { none, patches, copies, widePatches };
 constexpr std::size_t kPatchCountWords =
@@ -47,8 +49,8 @@ constexpr std::size_t kPatchCountWords =
 struct WidePatch {
     glm::vec4 corners[4], normal, direction, flux;
 };
-// Wide patches that are kept; more are covered by one thread each.
-constexpr std::size_t kMaxWidePatches = 1u << 18u;
+// Wide patches of a kind that are kept; more are covered by one thread each.
+constexpr std::size_t kMaxWidePatches = 1u << 17u;
 struct VertexShares {
     float quarter, area, triangles, cells;
 };
@@ -90,7 +92,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
         graph::Buffer<transport::Clamped> clamped;
     };
     const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
-    const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches);
+    const std::size_t wideCapacity = std::min(2 * capacity, kMaxWidePatches);
     // A light's map is read between its texels, and how light goes to the eye is each pixel's own.
     const bool hasBlocks = store.isEyeView() && !isGlossy;
     const std::string reason = hits.incoming.cells.width > 0
@@ -123,7 +125,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
             create(data.shares, "PhotonShares", "shares", capacity);
             create(data.patches, "Patches", "patches",
                    kPatchCountWords + (hits.incoming.hasLightSpread() ? 10 : 5) * capacity);
-            create(data.wide, "WidePatches", "wide", wideCapacity);
+            create(data.wide, "WidePatches", "wide", kWideKinds * wideCapacity);
             if (params.merge > 0.0f) {
                 setup.define("MERGES");
                 create(data.blocks, "PatchBlocks", "blocks", capacity);
@@ -191,7 +193,13 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                 coverPatches(true);
             }
             countGroups(Listed::widePatches);
-            dispatchOverPatches(shader("reconstruct/triangles_wide.comp"), kWidePatches);
+            for (const WideKind kind : {toPixels, toSquares}) {
+                if (kind == toSquares && !hasBlocks) continue;
+                gl::Command command = shader("reconstruct/triangles_wide.comp");
+                if (kind == toSquares) command.define("WALKS_BLOCKS");
+                command.set("wideCapacity", static_cast<int>(wideCapacity));
+                dispatchOverPatches(std::move(command), kWidePatches + kind);
+            }
         });
     reportWidthLimit(frame,
                      {"reconstruct.triangles", "maximum", WidthBound::largest,

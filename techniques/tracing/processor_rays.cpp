@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/tracing/processor_rays.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "framework/reference/photon_audit.h"
 
@@ -27,24 +32,29 @@ std::uint32_t wordOf(float value) {
     return value >= 0.0f && value < 4.2e9f ? static_cast<std::uint32_t>(value) : 0u;
 }
 
-// In the eye's space.
-std::vector<reference::AuditPhoton> raysOf(const Photons& photons, const render::RasterView& view,
-                                           std::size_t count, int rows, gl::PassContext& context) {
-    const std::vector<glm::vec4> position = context.texture(photons.position).readRows(rows);
-    const std::vector<glm::vec4> direction = context.texture(photons.direction).readRows(rows);
-    const std::vector<glm::vec4> flux = context.texture(photons.flux).readRows(rows);
-    std::vector<reference::AuditPhoton> rays(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        // One that is not on its way is no ray.
-        if (wordOf(direction[i].w) != transport::kFateInFlight) continue;
-        rays[i].position = glm::dvec3(position[i]);
-        rays[i].direction = glm::dvec3(direction[i]);
-        rays[i].media = wordOf(flux[i].w);
-        // Where an open mirror sent it on may be known to a pixel alone.
-        rays[i].reachMeters = 2.0 * view.footprintPerMeter() * std::abs(rays[i].position.z);
+// Rows of the list's textures, a texel a photon.
+using Texels = std::vector<glm::vec4>;
+
+struct Rays {
+    Texels position, direction, flux;
+    [[nodiscard]] bool isOnItsWay(std::size_t i) const {
+        return wordOf(direction[i].w) == transport::kFateInFlight;
     }
-    return rays;
-}
+    // In the eye's space.
+    [[nodiscard]] reference::AuditPhoton photon(const render::RasterView& view,
+                                                std::size_t i) const {
+        // Where an open mirror sent it on may be known to a pixel alone.
+        const double reach =
+            2.0 * view.footprintPerMeter() * std::abs(static_cast<double>(position[i].z));
+        return {glm::dvec3(position[i]), glm::dvec3(direction[i]), wordOf(flux[i].w), reach};
+    }
+};
+
+// What has hit nothing stays 0.
+struct FoundTexels {
+    Texels shading, geometric;
+    std::array<Texels, 3> turning;
+};
 
 void findHits(const render::RasterView& view, const reference::EmbreeScene& scene,
               const Found& found, gl::PassContext& context) {
@@ -53,25 +63,42 @@ void findHits(const render::RasterView& view, const reference::EmbreeScene& scen
         context.buffer(photons.list).read<transport::PhotonList>().front().count);
     const auto width = static_cast<std::size_t>(photons.width);
     const std::size_t rows = (count + width - 1) / width;
-    const std::vector<reference::FirstHit> exact = reference::exactFirstHits(
-        scene, raysOf(photons, view, count, static_cast<int>(rows), context),
-        glm::inverse(view.worldToView));
-    // What has hit nothing stays 0.
-    const auto write = [&](const auto& texture, auto&& texelOf) {
-        std::vector<glm::vec4> texels(rows * width, glm::vec4(0.0f));
-        for (std::size_t i = 0; i < count; ++i)
-            if (exact[i].exists()) texels[i] = glm::vec4(texelOf(exact[i]));
-        context.texture(texture).writeRows(texels);
+    const auto read = [&](const auto& texture) {
+        return context.texture(texture).readRows(static_cast<int>(rows));
     };
-    using Hit = reference::FirstHit;
-    write(found.shading,
-          [](const Hit& hit) { return glm::dvec4(hit.shadingNormal, hit.material); });
-    write(found.geometric,
-          [](const Hit& hit) { return glm::dvec4(hit.geometricNormal, hit.distanceMeters); });
+    const Rays rays{read(photons.position), read(photons.direction), read(photons.flux)};
+    const Texels nothing(rows * width, glm::vec4(0.0f));
+    FoundTexels texels{nothing, nothing, {}};
+    if (photons.hasBeams()) texels.turning.fill(nothing);
+    const reference::FirstHits hits(scene, glm::inverse(view.worldToView));
+    const auto find = [&](std::size_t i) {
+        if (!rays.isOnItsWay(i)) return;
+        const reference::FirstHit hit = hits.of(rays.photon(view, i));
+        if (!hit.exists()) return;
+        texels.shading[i] = glm::vec4(hit.shadingNormal, hit.material);
+        texels.geometric[i] = glm::vec4(hit.geometricNormal, hit.distanceMeters);
+        // A receiver bends no beam.
+        const bool bends = !isReceiver(scene.scene().materials[hit.material - 1].kind);
+        if (!photons.hasBeams() || !bends) return;
+        const glm::mat3 turning(hits.turningAt(hit));
+        for (int column = 0; column < 3; ++column)
+            texels.turning[static_cast<std::size_t>(column)][i] = glm::vec4(turning[column], 0.0f);
+    };
+    // Few enough at once that the last ones are shared out too.
+    constexpr std::size_t kAtOnce = 256;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kAtOnce),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i)
+                              find(i);
+                      });
+    const auto write = [&](const auto& texture, const Texels& from) {
+        context.texture(texture).writeRows(from);
+    };
+    write(found.shading, texels.shading);
+    write(found.geometric, texels.geometric);
     if (!photons.hasBeams()) return;
-    for (int column = 0; column < 3; ++column)
-        write(found.turning[static_cast<std::size_t>(column)],
-              [column](const Hit& hit) { return glm::dvec4(hit.turning[column], 0.0); });
+    for (std::size_t column = 0; column < 3; ++column)
+        write(found.turning[column], texels.turning[column]);
 }
 
 }  // namespace
