@@ -101,15 +101,16 @@ struct KeptFlux {
 shared KeptFlux keptFlux[64];
 shared uint keptCounts[64];
 
-// How many pixels, and above kSquares squares, the threads up to each have.
+// How many pixels and squares the threads up to each have, from these bits on.
+const uint kPixelBits = 0u;
+const uint kSquareBits = 16u;
 struct KeptCounts {
     uint first;
     uint upTo[kKeepers];
 };
-const uint kSquares = 16u;
 
 KeptCounts countKept(uint pixels, uint squares) {
-    keptCounts[gl_LocalInvocationIndex] = squares << kSquares | pixels;
+    keptCounts[gl_LocalInvocationIndex] = squares << kSquareBits | pixels << kPixelBits;
 #ifndef COPIES
     barrier();
 #endif
@@ -123,16 +124,16 @@ KeptCounts countKept(uint pixels, uint squares) {
     return counts;
 }
 
-uint countOf(uint both, uint kind) { return both >> kind & 0xffffu; }
+uint countOf(uint both, uint bits) { return both >> bits & 0xffffu; }
 
 // How many they have together.
-uint countOf(KeptCounts counts, uint kind) { return countOf(counts.upTo[kKeepers - 1u], kind); }
+uint countOf(KeptCounts counts, uint bits) { return countOf(counts.upTo[kKeepers - 1u], bits); }
 
 // The thread that has one of them, and its number there.
-uvec2 keeperOf(KeptCounts counts, uint kind, uint index) {
+uvec2 keeperOf(KeptCounts counts, uint bits, uint index) {
     uvec2 keeper = uvec2(counts.first, index);
     for (uint i = 0u; i + 1u < kKeepers; ++i) {
-        uint before = countOf(counts.upTo[i], kind);
+        uint before = countOf(counts.upTo[i], bits);
         if (index >= before) keeper = uvec2(counts.first + i + 1u, index - before);
     }
     return keeper;
@@ -163,17 +164,17 @@ void depositKept(Patch whole, float total, Found found) {
                                   isDeposited ? found.keptSquares : 0u);
     // They ask within, since a software rasteriser goes through a loop at least once.
     uint first = gl_LocalInvocationIndex % kKeepers;
-    uint pixels = countOf(counts, 0u);
+    uint pixels = countOf(counts, kPixelBits);
     uint i = first;
     do {
-        if (i < pixels) depositKeptPixel(keeperOf(counts, 0u, i));
+        if (i < pixels) depositKeptPixel(keeperOf(counts, kPixelBits, i));
         i += kKeepers;
     } while (i < pixels);
 #ifdef WALKS_BLOCKS
-    uint squares = countOf(counts, kSquares);
+    uint squares = countOf(counts, kSquareBits);
     i = first;
     do {
-        if (i < squares) depositKeptSquare(keeperOf(counts, kSquares, i));
+        if (i < squares) depositKeptSquare(keeperOf(counts, kSquareBits, i));
         i += kKeepers;
     } while (i < squares);
 #endif

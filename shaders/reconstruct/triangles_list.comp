@@ -28,27 +28,16 @@ Neighbourhood neighbourhoodOf(PhotonOrigin origin) {
     return around;
 }
 
-// The photons at the corners of the quadrilateral towards `quarter`; false where one is missing.
-bool photonsTowards(Neighbourhood around, uint quarter, out uint found[4]) {
-    uint first = (quarter & 1u) + 3u * (quarter >> 1u);
-    bool isWhole = true;
-    for (uint i = 0u; i < 4u; ++i) {
-        found[i] = around.photons[first + (i & 1u) + 3u * (i >> 1u)];
-        isWhole = isWhole && found[i] > 0u;
-    }
-    return isWhole;
-}
-
 // The areas of the triangles that the photon is a corner of, in cells that are joined: bits by the
 // corner of its cell (U08, section 5: in a pass of its own, once a photon).
 void addAreas(Neighbourhood around, uint joined, inout VertexShares shares) {
     for (uint i = 0u; i < 4u; ++i) {
         if ((joined & (1u << i)) == 0u) continue;
-        uint found[4];
-        photonsTowards(around, i, found);
+        uint first = (i & 1u) + 3u * (i >> 1u);
         vec3 corners[4];  // around the cell, from its lower left
         for (uint k = 0u; k < 4u; ++k) {
-            uint corner = found[k ^ (k >> 1u)];
+            uint at = k ^ (k >> 1u);
+            uint corner = around.photons[first + (at & 1u) + 3u * (at >> 1u)];
             corners[k] = texelFetch(hitPosition, ivec2(photonTexel(photons, corner - 1u)), 0).xyz;
         }
         // Triangles 0 1 2 and 0 2 3; the photon is the corner across from `i`.
@@ -78,10 +67,10 @@ Landing landingOf(uint photon) {
 struct Landings {
     Landing all[9];
 };
-Landings landingsOf(Neighbourhood around) {
+Landings landingsOf(Neighbourhood around, uint own) {
     Landings landings;
     for (int i = 0; i < 9; ++i)
-        landings.all[i] = landingOf((around.photons[i] > 0u ? around.photons[i] : around.photons[4]) - 1u);
+        landings.all[i] = landingOf(around.photons[i] > 0u ? around.photons[i] - 1u : own);
     return landings;
 }
 
@@ -138,7 +127,7 @@ void threadMain() {
     PhotonOrigin origin = originAt(texel);
     bool isOther = isFromOtherBatch(origin);
     Neighbourhood around = neighbourhoodOf(origin);
-    Landings landings = landingsOf(around);
+    Landings landings = landingsOf(around, index);
     Arrival own = arrivalOf(texel);
     uint joined = 0u;  // bits by the corner
     uint parts = 0u;

@@ -26,7 +26,7 @@ struct Patch {
     float tolerance;  // of the depths that pixels see, m, next to their own footprint
     float narrowing;  // by which factor a beam is narrower than it was to be; 1: it is not
     bool isJoined;    // between photons; false: a beam's
-    bool isAlone;     // of a beam: nothing next to it is joined
+    bool isAlone;     // of a beam: nothing next to it is joined, nor known to end
 #ifdef LIGHT_SPREAD
     mat2x3 spread[4];  // of the corners, to where the edge of a light's disc has them, m
     float cellArea;    // that a whole cell covers about there, m²

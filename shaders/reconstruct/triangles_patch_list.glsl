@@ -49,7 +49,8 @@ const uint kPatchBeam = 4u;     // all of its beam
 const uint kPatchJoined = 5u;   // what it is the lower left corner of
 const uint kPatchCrease = 8u;   // 8 to 11: the same of where light comes down on several surfaces
 const uint kPatchMerged = 12u;  // 12 to 15: 2, 4, 8 and 16 such cells along each side, as one
-const uint kPatchHalf = 12u;    // of beams 12 to 15: halves of its beam, below, above, left and right
+// The same numbers, since that is in the list of what is joined alone.
+const uint kPatchHalf = 12u;  // 12 to 15: halves of its beam, below, above, left and right
 const uint kMaxMerges = 4u;
 const uint kPatchParts = 16u;
 

@@ -227,7 +227,9 @@ Patch wholePatchOf(uint index, uint part) {
         ends = vec2[4](vec2(-0.5), vec2(0.5, -0.5), vec2(0.5), vec2(-0.5, 0.5));
         for (int i = 0; i < 4; ++i) ends[i] *= reachTowards(own, ends[i]);
     } else if (part >= kPatchHalf) {
-        own.flux *= 2.0 * photonShares[index].quarter;
+        uint quarters = quartersOfHalf(part - kPatchHalf);
+        own.flux *= fluxShare(own, index, uint(findLSB(quarters))) +
+                    fluxShare(own, index, uint(findMSB(quarters)));
         ends = endsOfHalf(part - kPatchHalf);
     } else {
         own.flux *= fluxShare(own, index, part);
@@ -235,7 +237,7 @@ Patch wholePatchOf(uint index, uint part) {
         ends = vec2[4](vec2(0.0), corners.along, corners.across, corners.up);
     }
     Patch made = patchOfBeam(own, ends, farthest);
-    made.isAlone = photonShares[index].cells == 0.0;
+    made.isAlone = photonShares[index].cells == 0.0 && own.extent == uvec2(0u);
     return made;
 }
 #endif

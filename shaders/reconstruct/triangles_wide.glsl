@@ -11,14 +11,13 @@ struct WidePatch {
 };
 const uint kWideJoined = 1u;
 const uint kWideFromBehind = 2u;
-const uint kWideAlone = 4u;
 
 layout(std430) buffer WidePatches {
     WidePatch widePatchList[];
 };
 
-// Where a wide beam ends is known no better than by a square of pixels, unless what is joined begins
-// there.
+// Where a wide beam ends is known no better than by a square of pixels, unless something is joined
+// next to it or a border is known (isAlone).
 uint kindOfWide(Patch whole) {
 #ifdef PIXEL_BLOCKS
     if (whole.isAlone) return kWideToSquares;
@@ -31,7 +30,7 @@ WidePatch packedPatch(Patch whole) {
     for (int i = 0; i < 4; ++i) made.corners[i] = vec4(whole.corners[i], whole.densities[i]);
     made.normal = vec4(whole.side.normal, whole.first);
     made.direction = vec4(whole.side.direction, whole.tolerance);
-    uint bits = (whole.isJoined ? kWideJoined : 0u) | (whole.isAlone ? kWideAlone : 0u) |
+    uint bits = (whole.isJoined ? kWideJoined : 0u) |
                 (whole.side.isFromBehind ? kWideFromBehind : 0u);
     made.flux = vec4(whole.flux, float(bits));
     return made;
@@ -50,7 +49,7 @@ Patch unpackedPatch(WidePatch from) {
     made.tolerance = from.direction.w;
     made.flux = from.flux.rgb;
     made.isJoined = (bits & kWideJoined) != 0u;
-    made.isAlone = (bits & kWideAlone) != 0u;
+    made.isAlone = false;  // its list says so
     made.narrowing = 1.0;
     return made;
 }

@@ -49,8 +49,8 @@ constexpr std::size_t kPatchCountWords =
 struct WidePatch {
     glm::vec4 corners[4], normal, direction, flux;
 };
-// Wide patches of a kind that are kept; more are covered by one thread each.
-constexpr std::size_t kMaxWidePatches = 1u << 17u;
+// Wide patches that are kept; more are covered by one thread each.
+constexpr std::size_t kMaxWidePatches = 1u << 18u;
 struct VertexShares {
     float quarter, area, triangles, cells;
 };
@@ -92,9 +92,10 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
         graph::Buffer<transport::Clamped> clamped;
     };
     const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
-    const std::size_t wideCapacity = std::min(2 * capacity, kMaxWidePatches);
     // A light's map is read between its texels, and how light goes to the eye is each pixel's own.
     const bool hasBlocks = store.isEyeView() && !isGlossy;
+    const std::size_t wideKinds = hasBlocks ? kWideKinds : 1;
+    const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches) / wideKinds;
     const std::string reason = hits.incoming.cells.width > 0
                                    ? "what neighbours bring is spread between them"
                                    : "no photon has neighbours: each is covered by its own beam";
@@ -125,7 +126,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
             create(data.shares, "PhotonShares", "shares", capacity);
             create(data.patches, "Patches", "patches",
                    kPatchCountWords + (hits.incoming.hasLightSpread() ? 10 : 5) * capacity);
-            create(data.wide, "WidePatches", "wide", kWideKinds * wideCapacity);
+            create(data.wide, "WidePatches", "wide", wideKinds * wideCapacity);
             if (params.merge > 0.0f) {
                 setup.define("MERGES");
                 create(data.blocks, "PatchBlocks", "blocks", capacity);
