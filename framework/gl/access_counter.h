@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Counts what the passes of a frame do to memory, by shaders that count (counting_text.h). It takes
-// many times as long as the frame does and makes the same picture, but for the last places where a
-// compiler rounds otherwise in them. Not counted: uniforms, what is no array in storage blocks,
-// commands of indirect draws and dispatches, and what transform feedback captures.
+// many times as long as the frame does and makes the same picture. Not counted: uniforms, what is
+// no array in storage blocks, commands of indirect draws and dispatches, and what transform
+// feedback captures.
 #pragma once
 
 #include <cstdint>

@@ -139,18 +139,23 @@ uvec2 keeperOf(KeptCounts counts, uint bits, uint index) {
     return keeper;
 }
 
+// Of one place that a thread has kept. The same to the bit in each program that a compiler makes of it.
+vec3 keptFluxAt(uint thread, uint at) {
+    precise vec3 flux = keptFlux[thread].flux * keptShares[at];
+    return flux;
+}
+
 void depositKeptPixel(uvec2 keeper) {
     uint at = keptAt(keeper.x, keeper.y);
-    KeptFlux from = keptFlux[keeper.x];
     uint place = keptPlaces[at];
-    depositFlux(ivec2(place & 0xffffu, place >> 16u), from.flux * keptShares[at],
-                directionToEye(from.direction));
+    depositFlux(ivec2(place & 0xffffu, place >> 16u), keptFluxAt(keeper.x, at),
+                directionToEye(keptFlux[keeper.x].direction));
 }
 
 #ifdef WALKS_BLOCKS
 void depositKeptSquare(uvec2 keeper) {
     uint at = keptAt(keeper.x, kMaxKept - 1u - keeper.y);
-    depositInSquare(keptPlaces[at], keptFlux[keeper.x].flux * keptShares[at]);
+    depositInSquare(keptPlaces[at], keptFluxAt(keeper.x, at));
 }
 #endif
 

@@ -28,16 +28,18 @@ Neighbourhood neighbourhoodOf(PhotonOrigin origin) {
     return around;
 }
 
+// Where in a neighbourhood a quadrilateral has its lower left corner, by its quarter; and from there
+// its corners, by theirs: right, up: bits.
+uint placeAround(uint corner) { return (corner & 1u) + 3u * (corner >> 1u); }
+
 // The areas of the triangles that the photon is a corner of, in cells that are joined: bits by the
 // corner of its cell (U08, section 5: in a pass of its own, once a photon).
 void addAreas(Neighbourhood around, uint joined, inout VertexShares shares) {
     for (uint i = 0u; i < 4u; ++i) {
         if ((joined & (1u << i)) == 0u) continue;
-        uint first = (i & 1u) + 3u * (i >> 1u);
         vec3 corners[4];  // around the cell, from its lower left
         for (uint k = 0u; k < 4u; ++k) {
-            uint at = k ^ (k >> 1u);
-            uint corner = around.photons[first + (at & 1u) + 3u * (at >> 1u)];
+            uint corner = around.photons[placeAround(i) + placeAround(k ^ (k >> 1u))];
             corners[k] = texelFetch(hitPosition, ivec2(photonTexel(photons, corner - 1u)), 0).xyz;
         }
         // Triangles 0 1 2 and 0 2 3; the photon is the corner across from `i`.
@@ -76,12 +78,11 @@ Landings landingsOf(Neighbourhood around, uint own) {
 
 // Whether the light of four neighbours comes down on more than one surface.
 bool isAtCrease(Neighbourhood around, Landings landings, uint quarter) {
-    uint corner = (quarter & 1u) + 3u * (quarter >> 1u);
-    Landing first = landings.all[corner];
+    Landing first = landings.all[placeAround(quarter)];
     bool isOne = true;
     bool isWhole = true;
     for (uint i = 0u; i < 4u; ++i) {
-        uint at = corner + (i & 1u) + 3u * (i >> 1u);
+        uint at = placeAround(quarter) + placeAround(i);
         Landing landing = landings.all[at];
         isWhole = isWhole && around.photons[at] > 0u && landing.path == first.path;
         isOne = isOne && landing.material == first.material && dot(landing.normal, first.normal) >= 0.5;
@@ -136,7 +137,7 @@ void threadMain() {
     float discarded = 0.0;
     bool isPlain = own.extent == uvec2(0u);
     for (uint i = 0u; i < 4u; ++i) {
-        uint lowerLeft = around.photons[(i & 1u) + 3u * (i >> 1u)];
+        uint lowerLeft = around.photons[placeAround(i)];
         if (lowerLeft > 0u && cellJoins[lowerLeft - 1u] == 1u) {
             joined |= 1u << i;
             whole += 1.0;
