@@ -24,6 +24,13 @@ inline void findFirstHit(RTCScene scene, QueryContext& context, RTCRayHit& query
     rtcIntersect1(scene, &context, &query);
 }
 
+// Of rays next to each other; those that count have -1 in `valid`.
+inline void findFirstHits(RTCScene scene, QueryContext& context, const int* valid,
+                          RTCRayHit8& query) {
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &context, &query);
+}
+
 inline void findAnyHit(RTCScene scene, QueryContext& context, RTCRay& ray) {
     rtcOccluded1(scene, &context, &ray);
 }
@@ -41,6 +48,15 @@ inline void findFirstHit(RTCScene scene, QueryContext& context, RTCRayHit& query
     rtcInitIntersectArguments(&arguments);
     arguments.context = &context;
     rtcIntersect1(scene, &query, &arguments);
+}
+
+inline void findFirstHits(RTCScene scene, QueryContext& context, const int* valid,
+                          RTCRayHit8& query) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &query, &arguments);
 }
 
 inline void findAnyHit(RTCScene scene, QueryContext& context, RTCRay& ray) {

@@ -2,6 +2,8 @@
 #include "framework/reference/embree_scene.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -49,6 +51,8 @@ bool isStart(const FilterContext& context, const RTCHit& hit) {
 // For specular objects in the scene of all surfaces.
 void rejectWrongSide(const RTCFilterFunctionNArguments* arguments) {
     const auto& context = *reinterpret_cast<const FilterContext*>(arguments->context);
+    // Nothing is rejected; of several rays at once, which no other rule is asked of.
+    if (context.sides == SideRule::any && !context.start.exists()) return;
     const auto& info = *static_cast<const EmbreeScene::ObjectInfo*>(arguments->geometryUserPtr);
     const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
     const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
@@ -135,7 +139,7 @@ std::optional<EmbreeScene::Sides> EmbreeScene::sidesOf(const glm::dvec3& a, cons
                  glm::cross(area, b - a) / area2};
 }
 
-EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters)
+EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters, HeightFields heightFields)
     : scene_(scene), appearance_(scene) {
     const scene::Bounds world = sceneBounds(scene);
     if (!world.empty) center_ = 0.5 * (world.minimum + world.maximum);
@@ -144,7 +148,7 @@ EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters)
     try {
         for (const scene::Object& object : scene.objects)
             addObject(object);
-        attach(filters);
+        attach(filters, heightFields);
         const glm::dvec3 farthest = glm::max(glm::abs(bounds_.minimum), glm::abs(bounds_.maximum));
         roundingMeters_ = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
                           std::max({farthest.x, farthest.y, farthest.z});
@@ -162,38 +166,70 @@ EmbreeScene::~EmbreeScene() {
     rtcReleaseDevice(device_);
 }
 
+// In double up to here, so that what is left is small.
+transport::VertexData EmbreeScene::ObjectMesh::placed(const transport::VertexData& vertex) const {
+    return {glm::vec3(toLocal * glm::dvec4(vertex.position, 1.0)), vertex.u,
+            glm::vec3(normalToLocal * glm::dvec3(vertex.normal)), vertex.v};
+}
+
 void EmbreeScene::addObject(const scene::Object& object) {
     const scene::Mesh& mesh = scene_.meshes[object.mesh];
     auto placed = std::make_unique<ObjectMesh>();
     placed->info = {scene_.materials[object.material].kind, object.material, mesh.closed};
     placed->triangles = &mesh.triangles;
     placed->hasNormalMap = scene_.materials[object.material].normalMap >= 0;
-    // In double up to here, so that what is left is small.
-    const glm::dmat4 toLocal = glm::translate(glm::dmat4(1.0), -center_) * object.toWorld *
-                               glm::translate(glm::dmat4(1.0), mesh.origin);
-    const glm::dmat3 normalToLocal = glm::transpose(glm::inverse(glm::dmat3(toLocal)));
+    placed->toLocal = glm::translate(glm::dmat4(1.0), -center_) * object.toWorld *
+                      glm::translate(glm::dmat4(1.0), mesh.origin);
+    placed->normalToLocal = glm::transpose(glm::inverse(glm::dmat3(placed->toLocal)));
     const bool isSpecular = !isReceiver(placed->info.kind);
     placed->vertices.reserve(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const glm::vec3 position(toLocal * glm::dvec4(mesh.positions[i], 1.0));
-        const glm::vec3 normal(normalToLocal * glm::dvec3(mesh.normals[i]));
-        placed->vertices.push_back({position, mesh.uvs[i].x, normal, mesh.uvs[i].y});
+        placed->vertices.push_back(
+            placed->placed({mesh.positions[i], mesh.uvs[i].x, mesh.normals[i], mesh.uvs[i].y}));
+        const glm::vec3& position = placed->vertices.back().position;
         bounds_.include(position);
         if (isSpecular) specularVertices_.emplace_back(position);
     }
     objects_.push_back(std::move(placed));
 }
 
-void EmbreeScene::attach(Filters filters) {
+void EmbreeScene::move(std::size_t object, std::span<const transport::VertexData> vertices) {
+    ObjectMesh& mesh = *objects_[object];
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 1024),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i)
+                              mesh.vertices[i] = mesh.placed(vertices[i]);
+                      });
+    if (mesh.triangles->empty()) return;
+    RTCGeometry geometry = rtcGetGeometry(everything_, static_cast<unsigned>(object));
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry);
+}
+
+void EmbreeScene::refit() {
+    rtcCommitScene(everything_);
+    rtcCommitScene(opaque_);
+    checkDevice(device_);
+}
+
+void EmbreeScene::attach(Filters filters, HeightFields heightFields) {
+    // Of what moves there is a hierarchy an object, and one over these.
+    const bool isMoving = heightFields == HeightFields::moving;
     for (RTCScene* target : {&everything_, &opaque_}) {
         *target = rtcNewScene(device_);
-        rtcSetSceneFlags(*target, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(*target, RTC_BUILD_QUALITY_HIGH);
+        const int flags =
+            RTC_SCENE_FLAG_ROBUST | (isMoving ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE);
+        rtcSetSceneFlags(*target, static_cast<RTCSceneFlags>(flags));
+        // By any other quality than "low" all that moves is built anew instead of fitted, which
+        // takes twenty times as long; each object's own hierarchy is as good.
+        rtcSetSceneBuildQuality(*target, isMoving ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
     }
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         ObjectMesh& mesh = *objects_[i];
         if (mesh.triangles->empty()) continue;
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        if (isMoving && scene_.meshes[scene_.objects[i].mesh].heightField)
+            rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                    mesh.vertices.data(), offsetof(transport::VertexData, position),
                                    sizeof(transport::VertexData), mesh.vertices.size());
@@ -345,6 +381,36 @@ bool EmbreeScene::intersectFromLight(const Ray& ray, SurfaceHit& hit) const {
         onward.fromMeters = hit.distance + roundingMeters_;
     }
     return false;
+}
+
+std::array<TriangleId, kRaysTogether> EmbreeScene::firstTriangles(
+    const std::array<OpenRay, kRaysTogether>& rays, int count) const {
+    const MediaStack none;
+    FilterContext context = makeContext({}, none, SideRule::any);
+    alignas(32) std::array<int, kRaysTogether> valid{};
+    RTCRayHit8 query{};
+    for (int i = 0; i < count; ++i) {
+        const OpenRay& ray = rays[static_cast<std::size_t>(i)];
+        valid[static_cast<std::size_t>(i)] = -1;
+        query.ray.org_x[i] = ray.origin.x;
+        query.ray.org_y[i] = ray.origin.y;
+        query.ray.org_z[i] = ray.origin.z;
+        query.ray.dir_x[i] = ray.direction.x;
+        query.ray.dir_y[i] = ray.direction.y;
+        query.ray.dir_z[i] = ray.direction.z;
+        query.ray.tnear[i] = ray.from;
+        query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        query.ray.mask[i] = 0xffffffffu;
+        query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    findFirstHits(everything_, context.embree, valid.data(), query);
+    std::array<TriangleId, kRaysTogether> found;
+    for (int i = 0; i < count; ++i) {
+        if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        found[static_cast<std::size_t>(i)] = {query.hit.geomID[i], query.hit.primID[i]};
+    }
+    return found;
 }
 
 bool EmbreeScene::intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,

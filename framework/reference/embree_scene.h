@@ -17,6 +17,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "framework/reference/appearance.h"
@@ -31,6 +32,7 @@ namespace kaustik::reference {
 struct TriangleId {
     std::uint32_t object = RTC_INVALID_GEOMETRY_ID;
     std::uint32_t triangle = RTC_INVALID_GEOMETRY_ID;
+    [[nodiscard]] bool exists() const { return object != RTC_INVALID_GEOMETRY_ID; }
 };
 
 // The sides from which specular surfaces are hit.
@@ -54,6 +56,14 @@ struct Ray {
     double fromMeters = 0.0;  // what is nearer is not hit
 };
 
+// A ray that starts in the open and meets all surfaces from all sides.
+struct OpenRay {
+    glm::vec3 origin{0.0f};     // local
+    glm::vec3 direction{0.0f};  // of any length but 0
+    float from = 0.0f;          // what is nearer, by the direction's length, is not hit
+};
+inline constexpr int kRaysTogether = 8;
+
 struct SurfaceHit {
     double distance = 0.0;            // m
     glm::dvec3 position{0.0};         // local
@@ -71,10 +81,21 @@ class EmbreeScene {
     // `Filters::none` is for measuring what the side rules cost: every surface counts from every
     // side.
     enum class Filters { sideRules, none };
-    explicit EmbreeScene(const scene::Scene& scene, Filters filters = Filters::sideRules);
+    // Whether height fields are to be moved: what is found is the same, but for where triangles
+    // meet, and found a little more slowly.
+    enum class HeightFields { still, moving };
+    explicit EmbreeScene(const scene::Scene& scene, Filters filters = Filters::sideRules,
+                         HeightFields heightFields = HeightFields::still);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    // Moves the vertices of an object with a height field, which are in its mesh's space, to where
+    // they are now; to be found there once refit() has been called, which fits the hierarchies
+    // anew. For scenes of HeightFields::moving, while nobody traces; bounds() and
+    // specularVertices() stay.
+    void move(std::size_t object, std::span<const transport::VertexData> vertices);
+    void refit();
 
     // The first surface that the ray hits by its side rule; false: none.
     [[nodiscard]] bool intersect(const Ray& ray, SurfaceHit& hit) const;
@@ -83,6 +104,11 @@ class EmbreeScene {
     // light lies in, within the rounding of coordinates, does not stand in its way: it is lit at
     // grazing incidence, which is not at all, and throws no shadow.
     [[nodiscard]] bool intersectFromLight(const Ray& ray, SurfaceHit& hit) const;
+
+    // The first triangle on each of the first `count` rays, from whichever side; none: nothing.
+    // They are found together, and sooner where they lie next to each other.
+    [[nodiscard]] std::array<TriangleId, kRaysTogether> firstTriangles(
+        const std::array<OpenRay, kRaysTogether>& rays, int count) const;
 
     // The first receiver or mirror on the eye's straight ray, dielectrics being invisible to it.
     [[nodiscard]] bool intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,
@@ -120,12 +146,15 @@ class EmbreeScene {
     struct ObjectMesh {
         ObjectInfo info;
         bool hasNormalMap = false;
+        glm::dmat4 toLocal{1.0};  // from the mesh's space
+        glm::dmat3 normalToLocal{1.0};
         // Local; normals by the inverse transpose, not unit, as on the GPU.
         std::vector<transport::VertexData> vertices;
         const std::vector<glm::uvec3>* triangles = nullptr;
+        [[nodiscard]] transport::VertexData placed(const transport::VertexData& vertex) const;
     };
     void addObject(const scene::Object& object);
-    void attach(Filters filters);
+    void attach(Filters filters, HeightFields heightFields);
     // The normal that light is bent by at a point of a triangle: `weights` of its corners, which
     // add up to 1 and may lie outside of it.
     [[nodiscard]] glm::dvec3 shadingNormal(const ObjectMesh& mesh, const glm::uvec3& corners,

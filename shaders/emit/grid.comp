@@ -44,7 +44,7 @@ bool isLeftOut(ivec2 cell, uint quarter) {
 // Sub-cells in a row from `start` on in which the light sees the object, no more than `maximum`.
 int countFrom(ivec2 cell, ivec2 start, ivec2 step, uint object, int maximum) {
     int count = 0;
-    while (count < maximum && seenAt(cell, start + count * step).x == object) ++count;
+    while (count < maximum && objectThrough(cell, start + count * step) == object) ++count;
     return count;
 }
 
@@ -72,16 +72,16 @@ vec2 reachAcross(ivec2 cell, ivec2 side, vec2 corner, uint object) {
     for (int i = 1; i <= steps; ++i) {
         float at = (float(i) - 0.5) / float(steps);
         ivec2 neighbourOffset = side * ivec2(floor(at * corner * float(subcells) + 0.5));
-        if (seenAt(cell, neighbourOffset).x != object) break;
+        if (objectThrough(cell, neighbourOffset) != object) break;
         share = float(i) / float(steps);
     }
     return share * corner;
 }
 
 CellQuarter quarterAround(ivec2 cell, ivec2 side, uint object) {
-    bool isNeighbour = seenAt(cell, side * ivec2(subcells, 0)).x == object;
-    bool isAbove = seenAt(cell, side * ivec2(0, subcells)).x == object;
-    bool isAcross = seenAt(cell, side * subcells).x == object;
+    bool isNeighbour = seenThrough(cell + ivec2(side.x, 0)).x == object;
+    bool isAbove = seenThrough(cell + ivec2(0, side.y)).x == object;
+    bool isAcross = seenThrough(cell + side).x == object;
     if (isNeighbour && isAbove && isAcross) return kWholeQuarter;
     ivec2 middle = side * (subcells / 2);
     CellQuarter quarter = kWholeQuarter;
@@ -116,7 +116,7 @@ bool isAmongCells(ivec2 cell, uint object) {
     bool isAmong = true;
     for (int i = 0; i < 9; ++i) {
         ivec2 side = ivec2(i % 3, i / 3) - 1;
-        isAmong = isAmong && seenAt(cell, side * subcells).x == object;
+        isAmong = isAmong && seenThrough(cell + side).x == object;
     }
     return isAmong;
 }
@@ -171,7 +171,7 @@ const Emitted kNotEmitted =
     Emitted(Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u), vec3(0.0), 0u, uvec2(0u));
 
 Emitted emittedFrom(ivec2 cell) {
-    uvec2 seen = seenAt(cell, ivec2(0));
+    uvec2 seen = seenThrough(cell);
     uint material = seen.x == 0u ? 0u : instances[seen.x - 1u].material.x;
     if (seen.x == 0u || isReceiver(materialKind(material))) return kNotEmitted;
     takeBandOf(uint(lightIndex));

@@ -35,7 +35,7 @@ void main() {
     if (photon.fate == kFateSpecular) {
         beam = emittedBeam(photon, light, isParallel);
         PointOnTriangle point =
-            pointOnTriangle(seenAt(cell, ivec2(0)), placeOfCell(cell), isParallel);
+            pointOnTriangle(seenThrough(cell), placeOfCell(cell), isParallel);
         // Of what is interpolated over the triangle, as the normals are.
         float size = max(length(point.normal), 1e-12);
         shape = shapeFrom(texelFetch(startSurface, texel, 0).xyz, point.places, point.turns / size);

@@ -14,7 +14,7 @@ void main() {
     ivec2 cell;
     ivec2 texel;
     if (!cellOfThread(cell, texel)) return;
-    uint object = seenAt(cell, ivec2(0)).x;
+    uint object = seenThrough(cell).x;
     if (object == 0u || isReceiver(materialKind(instances[object - 1u].material.x))) return;
     ivec2 here = cell - ivec2(0, firstRow);
     cellPlaces[atomicAdd(cellsToEmit.count, 1u)] = uint(here.x) | uint(here.y) << 16u;

@@ -2,9 +2,10 @@
 // emit.grid: photons on a regular grid of each light's view (K06, section 1.1; the
 // render-to-vertex-buffer caustics of the time), where they first hit a specular surface. The
 // grid is the tightest rectangle around the specular objects; one grid a light, stacked in the
-// transfer map. Drawn is only which triangle the light sees, by parts of a cell, so that the border
-// of the light is known better than to a cell; the photon is where its ray hits that triangle. Out:
-// photons that arrive (flux in W) and the hits that they make; eye view space, m.
+// transfer map. Which triangle the light sees is drawn, or traced by the processor (grid_sight.h),
+// by parts of a cell, so that the border of the light is known better than to a cell; the photon is
+// where its ray hits that triangle. Out: photons that arrive (flux in W) and the hits that they
+// make; eye view space, m.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +14,9 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
+#include "techniques/emit/grid_sight.h"
 #include "techniques/light_cells/squares.h"
 #include "techniques/photon_lists/emitted.h"
-#include "techniques/raster_views/light_sight.h"
 #include "techniques/thread_lists/thread_list.h"
 
 namespace kaustik {
@@ -23,6 +24,7 @@ namespace {
 
 struct GridEmissionParams {
     int subcells = 5;
+    SightBy sight = SightBy::automatic;
     template <class R>
     void reflect(R& r) {
         r.field(
@@ -31,6 +33,13 @@ struct GridEmissionParams {
             "odd number, and fewer where a light's view would exceed 4096 of them; 1: a cell is "
             "lit all or not at all",
             "", params::range(1, 7));
+        r.choice(
+            sight, "sight",
+            "Who finds what a light sees first: raster draws it, all parts of all cells; "
+            "processor traces the middles of cells, and parts of those at borders alone "
+            "(Embree); auto: the processor where the device renders on it, but in squares that "
+            "are refined",
+            {"auto", "raster", "processor"});
     }
 };
 
@@ -42,38 +51,6 @@ int subcellsOf(const GridEmissionParams& params, params::Extent grid) {
     return std::max(maximum - (maximum + 1) % 2, 1);
 }
 
-// What a light sees first through each sub-cell. x: object's index + 1, 0 none; y: the triangle.
-struct SightOfLight {
-    static constexpr Format format = Format::rg32ui;
-};
-
-// Most parts of a light's view that are drawn at once.
-constexpr int kMaxSight = 4194304;
-
-// Cells of a batch: rows of the grids, with those next to it that its own are to be joined with.
-struct GridRows {
-    params::Extent grid;
-    CellGrid cells;
-    int subcells = 1;
-    // What a light sees is drawn in bands of the grid's rows that no batch has a part in: a
-    // rasteriser rounds by where in its window a triangle lies.
-    [[nodiscard]] int bandRows() const {
-        return std::clamp(kMaxSight / (grid.width * subcells * subcells), 1, grid.height);
-    }
-    // A cell's extent depends on what the light sees no farther than two cells away.
-    [[nodiscard]] int firstSeen(int band) const { return band * bandRows() - 2; }
-    [[nodiscard]] int seen() const { return bandRows() + 4; }
-    [[nodiscard]] int firstBand() const { return cells.firstRow / bandRows(); }
-    [[nodiscard]] int endBand() const { return (cells.firstRow + cells.rows - 1) / bandRows() + 1; }
-    // The rows of the batch that a band has.
-    [[nodiscard]] int firstIn(int band) const {
-        return std::max(cells.firstRow, band * bandRows());
-    }
-    [[nodiscard]] int rowsIn(int band) const {
-        return std::min(cells.firstRow + cells.rows, (band + 1) * bandRows()) - firstIn(band);
-    }
-};
-
 SquareRoom squareRoomOf(const Samples& samples) {
     SquareRoom room{samples.refinement, 1, samples.cells.height};
     room.perRow = samples.cells.width / room.photonsOfSquare();
@@ -82,24 +59,10 @@ SquareRoom squareRoomOf(const Samples& samples) {
 
 struct GridEmission {
     Hits hits;
-    graph::Texture<SightOfLight> sight;
-    graph::Texture<DepthBuffer> depth;
+    GridSight sight;
     Geometry geometry;
     ThreadList cells;  // that see something specular; of squares all are taken
 };
-
-void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
-               const LightSight& seen, const GridRows& rows, int band) {
-    gl::Command command = context.shaders({"emit/grid_sight.vert", "emit/grid_sight.frag"});
-    command.target(data.sight).clear();
-    command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
-    const int width = rows.grid.width * rows.subcells;
-    const int height = rows.grid.height * rows.subcells;
-    command.viewport(0, -rows.firstSeen(band) * rows.subcells, width, height)
-        .set("projection", seen.view.projection())
-        .set("sightSize", glm::vec2(width, height));
-    inputs.gpuScene.draw(command, context, data.geometry, *seen.instances, render::DrawSet::all);
-}
 
 // The cells of a light in a band.
 struct CellsOfBand {
@@ -117,12 +80,9 @@ struct CellsOfBand {
 void bindCells(const FrameInputs& inputs, gl::Command& command, const GridEmission& data,
                const CellsOfBand& of) {
     const auto& [seen, rows, samples, band, light] = of;
-    command.texture("sight", data.sight)
-        .storage("Instances", inputs.instances.instances)
+    SightFinder::bind(command, data.sight, rows, band);
+    command.storage("Instances", inputs.instances.instances)
         .set("lightFromEye", render::between(inputs.view, seen.view))
-        .set("subcells", rows.subcells)
-        .set("sightFirstRow", rows.firstSeen(band))
-        .set("gridSize", glm::ivec2(rows.grid.width, rows.grid.height))
         .set("halfExtent", glm::vec2(seen.view.halfExtent))
         .set("lightIndex", light)
         .set("cellsHere", glm::ivec2(rows.grid.width, rows.rowsIn(band)))
@@ -164,7 +124,6 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
               const CellsOfBand& of) {
     const auto& [seen, rows, samples, band, light] = of;
     const Photons& photons = data.hits.incoming;
-    drawSight(inputs, context, data, seen, rows, band);
     if (!samples.cells.valid()) listCells(inputs, context, data, of);
     gl::Command emission = context.compute("emit/grid.comp");
     emission.set("ownRows", glm::ivec2(rows.cells.firstOwn, rows.cells.endOwn));
@@ -215,6 +174,7 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
         : isOfSquares  ? "finer photons in the squares that are refined"
                        : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
                                      grids->size(), grids->size() == 1 ? "" : "s");
+    const SightFinder finder(frame, params.sight, isOfSquares, surfaces.geometry);
     return frame
         .pass<GridEmission>(
             "emit.grid", reason,
@@ -239,20 +199,15 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
                         photons.cells.rows * samples.lights);
                 }
                 data.hits = storeEmitted(setup, photons, samples);
-                data.sight = setup.create<SightOfLight>("emit.sight" + samples.suffix,
-                                                        grid.width * rows.subcells,
-                                                        rows.seen() * rows.subcells);
-                data.depth = setup.create<DepthBuffer>("emit.depth_buffer" + samples.suffix,
-                                                       grid.width * rows.subcells,
-                                                       rows.seen() * rows.subcells);
+                data.sight = finder.create(setup, rows, samples.suffix);
                 if (isOfSquares) return;
                 data.cells = ThreadList::create(
                     setup, "CellsToEmit", "emit.cells" + samples.suffix,
                     static_cast<std::size_t>(grid.width) *
                         static_cast<std::size_t>(std::min(rows.bandRows(), rows.cells.rows)));
             },
-            [&inputs = frame.inputs(), grids, samples, rows](const GridEmission& data,
-                                                             gl::PassContext& context) {
+            [&inputs = frame.inputs(), grids, samples, rows, finder](const GridEmission& data,
+                                                                     gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 beginEmission(context, photons, samples);
                 if (grids->empty() || !samples.cells.valid()) {
@@ -264,8 +219,10 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
                 for (int light = samples.firstLight; light < end; ++light) {
                     const LightSight& seen =
                         (*grids)[static_cast<std::size_t>(light) % grids->size()];
-                    for (int band = rows.firstBand(); band < rows.endBand(); ++band)
+                    for (int band = rows.firstBand(); band < rows.endBand(); ++band) {
+                        finder.find(inputs, context, data.sight, data.geometry, seen, rows, band);
                         emitFrom(inputs, context, data, {seen, rows, samples, band, light});
+                    }
                 }
             })
         .hits;

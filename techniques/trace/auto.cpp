@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // trace.auto: exact first hits, by trace.raytraced where the device renders on the processor, since
-// Embree takes a third to two thirds of the shaders' time there in bodies of glass
-// (results/exact_rays.md), else by trace.bvh. Out: the same hits, ties aside, whichever finds them.
+// Embree takes a third to two thirds of the shaders' time there (results/exact_rays.md), else by
+// trace.bvh. Out: the same hits, ties aside, whichever finds them.
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"
@@ -16,9 +16,7 @@ namespace {
 // Why shaders are to trace; "" where the processor is.
 const char* whyOnDevice(const FrameBuilder& frame) {
 #ifdef KAUSTIK_HAS_EMBREE
-    if (!frame.inputs().isOnProcessor) return "the device is not the processor";
-    // Embree's hierarchy would be built anew in each frame; the device's is fitted.
-    return frame.needs().animated ? "waves move" : "";
+    return frame.inputs().isOnProcessor ? "" : "the device is not the processor";
 #else
     static_cast<void>(frame);
     return "this program is built without Embree";
@@ -34,7 +32,7 @@ Hits traceAuto(FrameBuilder& frame, const params::NoParams&, Photons photons, Su
                    onProcessor ? "the device is the processor, on which Embree traces" : reason);
     }
 #ifdef KAUSTIK_HAS_EMBREE
-    if (onProcessor) return hitsByProcessor(frame, photons);
+    if (onProcessor) return hitsByProcessor(frame, photons, surfaces.geometry);
 #endif
     return hitsByBvh(frame, photons, surfaces.geometry);
 }
@@ -44,11 +42,11 @@ Hits traceAuto(FrameBuilder& frame, const params::NoParams&, Photons photons, Su
 void registerTraceAuto(Registry& registry) {
     registry.node<TraceStage>(
         "auto",
-        {"Exact first hits: by the processor (Embree) where the device renders on it and nothing "
-         "moves, else on the device.",
+        {"Exact first hits: by the processor (Embree) where the device renders on it, else on the "
+         "device.",
          "",
-         "It decides by the kind of device, by whether waves move, and by whether the program is "
-         "built with Embree; no time is measured."},
+         "It decides by the kind of device, and by whether the program is built with Embree; no "
+         "time is measured."},
         {.reach = TracerReach::everything}, &traceAuto);
 }
 

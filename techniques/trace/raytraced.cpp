@@ -9,8 +9,8 @@ namespace kaustik {
 namespace {
 
 Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photons,
-                    Surfaces /*surfaces*/) {
-    return hitsByProcessor(frame, photons);
+                    Surfaces surfaces) {
+    return hitsByProcessor(frame, photons, surfaces.geometry);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/reference/photon_audit.h"
+#include "techniques/tracing/processor_scene.h"
 
 namespace kaustik {
 namespace {
@@ -103,17 +104,14 @@ void findHits(const render::RasterView& view, const reference::EmbreeScene& scen
 
 }  // namespace
 
-Hits hitsByProcessor(FrameBuilder& frame, const Photons& photons) {
-    const auto make = [&] { return std::make_shared<reference::EmbreeScene>(frame.scene()); };
-    const char* const shared = "reference.embree_scene";
-    const auto scene = frame.gpuScene().heightFields().empty()
-                           ? frame.onceForScene<reference::EmbreeScene>(shared, make)
-                           : frame.once<reference::EmbreeScene>(shared, make);
+Hits hitsByProcessor(FrameBuilder& frame, const Photons& photons, const Geometry& geometry) {
+    const ProcessorScene processor = processorScene(frame, geometry);
     return frame
         .pass<Found>(
             "trace.raytraced", "the processor traces every photon exactly",
             [&](graph::PassSetup& setup, Found& data) {
                 photons.sample(setup);
+                processor.read(setup);
                 data.hits = Hits::create(setup, photons);
                 data.hits.incoming.account(setup);
                 data.hits.store(setup);
@@ -127,7 +125,8 @@ Hits hitsByProcessor(FrameBuilder& frame, const Photons& photons) {
                 for (std::size_t column = 0; column < data.turning.size(); ++column)
                     data.turning[column] = create("hits.turning_" + std::to_string(column));
             },
-            [&inputs = frame.inputs(), scene](const Found& data, gl::PassContext& context) {
+            [&inputs = frame.inputs(), scene = processor.scene](const Found& data,
+                                                                gl::PassContext& context) {
                 if (!context.isListing()) findHits(inputs.view, *scene, data, context);
                 gl::Command command = context.compute("trace/raytraced.comp");
                 command.texture("foundShading", data.shading)

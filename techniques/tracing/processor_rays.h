@@ -8,6 +8,7 @@ namespace kaustik {
 
 // The exact first hit of every photon, as a pass "trace.raytraced". The list is read back, and what
 // was found is written to the device.
-[[nodiscard]] Hits hitsByProcessor(FrameBuilder& frame, const Photons& photons);
+[[nodiscard]] Hits hitsByProcessor(FrameBuilder& frame, const Photons& photons,
+                                   const Geometry& geometry);
 
 }  // namespace kaustik

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Cells of a light's grid and what the light sees first through each (emit/grid_sight.frag), by
-// sub-cells, an odd number a cell's side. A compute thread a cell.
+// Cells of a light's grid and what the light sees first through each (techniques/emit/grid_sight.h),
+// by sub-cells, an odd number a cell's side. A compute thread a cell.
 #include "include/photons/light_triangle.glsl"
 #include "include/photons/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform usampler2D sight;   // SightOfLight
+#ifdef SIGHT_OF_CELLS
+uniform usamplerBuffer sightOfCells;  // SightOfCell
+uniform usamplerBuffer sightOfParts;  // objects, index + 1
+uniform int sightRows;                // that there are cells of
+#else
+uniform usampler2D sight;  // SightOfLight
+#endif
 uniform int subcells;       // a side of a cell
 uniform int sightFirstRow;  // of the grid, of which `sight` begins to hold cells
 uniform ivec2 gridSize;     // cells
@@ -57,14 +63,46 @@ bool cellOfThread(out ivec2 cell, out ivec2 texel) {
 }
 #endif
 
-// What the light sees through the middle of the sub-cell that lies so many next to the middle of the
-// cell. x: object's index + 1, 0 where nothing is or the grid has ended; y: the triangle.
+#ifdef SIGHT_OF_CELLS
+// Of the cells of which something is known; -1: it is none.
+int numberOfSeenCell(ivec2 cell) {
+    int row = cell.y - sightFirstRow;
+    bool isIn = cell.x >= 0 && cell.x < gridSize.x && row >= 0 && row < sightRows;
+    return isIn ? row * gridSize.x + cell.x : -1;
+}
+
+uvec2 seenThrough(ivec2 cell) {
+    int number = numberOfSeenCell(cell);
+    return number >= 0 ? texelFetch(sightOfCells, number).xy : uvec2(0u);
+}
+
+uint objectThrough(ivec2 cell, ivec2 neighbourOffset) {
+    ivec2 part = subcells / 2 + neighbourOffset;
+    // No more than a few cells away: exact.
+    ivec2 away = ivec2(floor((vec2(part) + 0.5) / float(subcells)));
+    int number = numberOfSeenCell(cell + away);
+    if (number < 0) return 0u;
+    uvec4 seen = texelFetch(sightOfCells, number);
+    if (seen.z == 0u) return seen.x;
+    ivec2 inCell = part - away * subcells;
+    return texelFetch(sightOfParts, int(seen.z) - 1 + inCell.y * subcells + inCell.x).x;
+}
+#else
 uvec2 seenAt(ivec2 cell, ivec2 neighbourOffset) {
     ivec2 texel = (cell - ivec2(0, sightFirstRow)) * subcells + subcells / 2 + neighbourOffset;
     ivec2 size = textureSize(sight, 0);
     bool isIn = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
     return isIn ? texelFetch(sight, texel, 0).xy : uvec2(0u);
 }
+
+// What the light sees through the middle of a cell. x: object's index + 1, 0 where nothing is or the
+// grid has ended; y: the triangle.
+uvec2 seenThrough(ivec2 cell) { return seenAt(cell, ivec2(0)); }
+
+// The object, index + 1, through the middle of the sub-cell that lies so many next to the middle of
+// the cell.
+uint objectThrough(ivec2 cell, ivec2 neighbourOffset) { return seenAt(cell, neighbourOffset).x; }
+#endif
 
 vec2 sizeOfCell() { return 2.0 * halfExtent / vec2(gridSize); }
 

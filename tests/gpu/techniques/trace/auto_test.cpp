@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// trace.auto: by the processor where the device is one and nothing moves, else on the device; the
-// same hits, and what was made of the scene is kept while settings change.
+// trace.auto: by the processor where the device is one, else on the device; the same hits, where
+// water moves too, and what was made of the scene is kept while settings change.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/run/settings.h"
+#include "framework/scene/shapes/height_field.h"
 #include "techniques/tracing/bvh_rays.h"
 #include "tests/gpu/fixture.h"
 #include "tests/wavy_water.h"
@@ -33,16 +35,55 @@ Frame rendered(const scene::Scene& scene, const std::string& tracer) {
     return {scene, 64, 48, {{"trace", tracer}, {"emit.photons", "64x64"}}, {}, false, "exact_rays"};
 }
 
-TEST(TraceAuto, TracesStillScenesWhereItIsSoonerAndMovingOnesOnTheDevice) {
+TEST(TraceAuto, TracesOnTheProcessorWhereItIsTheDevice) {
     const bool onProcessor = context().info().isSoftware && !lacksExactTracer();
-    const scene::Scene ball = ballOfGlass();
-    const Frame still = rendered(ball, "auto");
-    EXPECT_EQ(runs(still, "trace.raytraced"), onProcessor);
-    EXPECT_EQ(runs(still, "trace.bvh"), !onProcessor);
-    const scene::Scene water = sceneFromText(kWavyWater);
-    const Frame moving = rendered(water, "auto");
-    EXPECT_TRUE(runs(moving, "trace.bvh"));
-    EXPECT_FALSE(runs(moving, "trace.raytraced"));
+    for (const scene::Scene& scene : {ballOfGlass(), sceneFromText(kWavyWater)}) {
+        const Frame frame = rendered(scene, "auto");
+        EXPECT_EQ(runs(frame, "trace.raytraced"), onProcessor) << scene.name;
+        EXPECT_EQ(runs(frame, "trace.bvh"), !onProcessor) << scene.name;
+        EXPECT_EQ(runs(frame, "geometry.embree"), onProcessor && scene.name == "wavy");
+    }
+}
+
+// Its hierarchy is that of the first moment, fitted to the water of each later one.
+TEST(TraceRaytraced, FindsWaterWhereItHasMovedTo) {
+    if (lacksExactTracer()) GTEST_SKIP() << "built without Embree";
+    const Registry registry = registerAll();
+    scene::Scene scene = sceneFromText(kWavyWater);
+    const auto settings = [&](const std::string& tracer) {
+        RenderSettings made = run::makeSettings(
+            {.technique = "exact_rays",
+             .assignments = {{"trace", tracer, "test"}, {"emit.photons", "64x64", "test"}}},
+            registry);
+        run::setSize(made, {64, 48});
+        return made;
+    };
+    const auto irradiance = [](Renderer& renderer) {
+        renderer.build(Purpose::picture);
+        gl::PassTimer untimed(gl::TimerMode::finish);
+        renderer.renderFrame(untimed);
+        return renderer.texture(renderer.outputs().caustic.irradiance).read();
+    };
+    const auto difference = [](const std::vector<float>& a, const std::vector<float>& b) {
+        double sum = 0.0;
+        double of = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            sum += std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+            of += std::abs(static_cast<double>(b[i]));
+        }
+        return sum / of;
+    };
+    Renderer moving(context(), registry, scene, settings("raytraced"));
+    std::vector<float> before = irradiance(moving);
+    for (const double time : {0.1, 7.3}) {
+        scene::setTime(scene, time);
+        moving.update(settings("raytraced"));
+        const std::vector<float> found = irradiance(moving);
+        Renderer byDevice(context(), registry, scene, settings("bvh"));
+        EXPECT_LT(difference(found, irradiance(byDevice)), 1e-4) << time;
+        EXPECT_GT(difference(found, before), 0.02) << time;
+        before = found;
+    }
 }
 
 TEST(TraceAuto, TakesTheDevicesWayWhereItIsAskedForWhatAGpuIsGiven) {
