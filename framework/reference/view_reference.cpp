@@ -166,19 +166,22 @@ class Tracer {
 
 }  // namespace
 
+void ViewReference::countPixels() {
+    pixels = static_cast<std::size_t>(std::count(mask.values.begin(), mask.values.end(), 1.0f));
+}
+
+ViewReference emptyView(const ViewReferenceRequest& request) {
+    const auto image = [&](int channels) { return Image(request.width, request.height, channels); };
+    return {image(4), image(4), image(3), image(3), image(1), 0};
+}
+
 ViewReference traceView(const EmbreeScene& scene, const ViewReferenceRequest& request) {
-    ViewReference reference;
-    reference.exitPosition = Image(request.width, request.height, 4);
-    reference.exitDirection = Image(request.width, request.height, 4);
-    reference.radiance = Image(request.width, request.height, 3);
-    reference.radianceError = Image(request.width, request.height, 3);
-    reference.mask = Image(request.width, request.height, 1);
+    ViewReference reference = emptyView(request);
     const Tracer tracer(scene, request, reference);
     runWithThreads(request.threads, [&] {
         tbb::parallel_for(0, request.height, [&](int row) { tracer.traceRow(row); });
     });
-    reference.pixels = static_cast<std::size_t>(
-        std::count(reference.mask.values.begin(), reference.mask.values.end(), 1.0f));
+    reference.countPixels();
     return reference;
 }
 

@@ -6,6 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
 
 #include "framework/image/image.h"
 #include "framework/reference/embree_scene.h"
@@ -32,9 +35,19 @@ struct ViewReference {
     Image radianceError;     // its standard error
     Image mask;              // 1 where the pixel's middle sees a specular surface
     std::size_t pixels = 0;  // of these
+    void countPixels();
 };
+// Of the request's size; nothing is seen.
+[[nodiscard]] ViewReference emptyView(const ViewReferenceRequest& request);
 
 [[nodiscard]] ViewReference traceView(const EmbreeScene& scene,
                                       const ViewReferenceRequest& request);
+
+// The same, kept in a folder: traced where it is not there. `report` is told of a file that is
+// damaged, which is made again, or that cannot be written.
+[[nodiscard]] ViewReference loadOrTraceView(const EmbreeScene& scene,
+                                            const ViewReferenceRequest& request,
+                                            const std::filesystem::path& cacheFolder,
+                                            const std::function<void(const std::string&)>& report);
 
 }  // namespace kaustik::reference

@@ -99,6 +99,10 @@ Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& requ
     }
 }
 
+ViewReference obtainView(const EmbreeScene& scene, const ViewReferenceRequest& request) {
+    return loadOrTraceView(scene, request, cacheFolder() / "references", reportDamage);
+}
+
 ShardResult obtainShard(const EmbreeScene& scene, const ReferenceRequest& request,
                         const ShardRequest& requested, RunOptions options) {
     catchInterrupts();

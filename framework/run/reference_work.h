@@ -8,6 +8,7 @@
 #include "framework/pipeline/photons.h"
 #include "framework/reference/reference.h"
 #include "framework/reference/shards.h"
+#include "framework/reference/view_reference.h"
 #include "framework/run/cache_folder.h"
 #include "framework/run/progress.h"
 
@@ -27,6 +28,10 @@ namespace kaustik::run {
                                                    const reference::ReferenceRequest& request,
                                                    reference::RunOptions options,
                                                    const Watch& watch);
+
+// What the eye sees, from the cache or traced and cached.
+[[nodiscard]] reference::ViewReference obtainView(const reference::EmbreeScene& scene,
+                                                  const reference::ViewReferenceRequest& request);
 
 // A shard of one, with its progress on standard error. Throws Error when interrupted; the next call
 // goes on from there.

@@ -259,7 +259,7 @@ std::vector<fs::path> RunReference::judgeView(Renderer& renderer, const fs::path
     reference::ViewReferenceRequest request;
     request.width = renderer.view().width;
     request.height = renderer.view().height;
-    const reference::ViewReference reference = traceView(loaded_->scene, request);
+    const reference::ViewReference reference = obtainView(loaded_->scene, request);
     json& error = record.error["view"];
     if (reference.pixels == 0) {
         error = nullptr;

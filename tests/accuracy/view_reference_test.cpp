@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "framework/core/files.h"
 #include "framework/reference/eye.h"
 #include "framework/reference/optics.h"
 #include "tests/accuracy/path_fixture.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace kaustik::reference {
 namespace {
@@ -218,6 +223,54 @@ TEST_F(ViewReferenceOf, TheSameRequestIsTheSameAtAnyNumberOfThreads) {
     const ViewReference three = trace();
     EXPECT_EQ(one.radiance.values, three.radiance.values);
     EXPECT_EQ(one.exitPosition.values, three.exitPosition.values);
+}
+
+TEST_F(ViewReferenceOf, WhatIsKeptIsWhatWasTracedAndOfThatSceneAlone) {
+    addObject(scene_, scene::makeSphere({1.0, 64}), glass(1.5));
+    const test::TemporaryFolder folder;
+    std::vector<std::string> reports;
+    const auto load = [&] {
+        return loadOrTraceView(EmbreeScene(scene_), request_, folder / "cache",
+                               [&](const std::string& report) { reports.push_back(report); });
+    };
+    const auto expectTraced = [&](const ViewReference& found) {
+        const ViewReference traced = trace();
+        EXPECT_GT(found.pixels, 100u);
+        EXPECT_EQ(found.pixels, traced.pixels);
+        EXPECT_EQ(found.mask.values, traced.mask.values);
+        EXPECT_EQ(found.exitPosition.values, traced.exitPosition.values);
+        EXPECT_EQ(found.exitDirection.values, traced.exitDirection.values);
+        EXPECT_EQ(found.radiance.values, traced.radiance.values);
+        EXPECT_EQ(found.radianceError.values, traced.radianceError.values);
+    };
+    const auto files = [&] {
+        std::vector<std::filesystem::path> found;
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "cache"))
+            found.push_back(entry.path());
+        return found;
+    };
+    expectTraced(load());
+    ASSERT_EQ(files().size(), 1u);
+    const std::string whole = readFile(files().front());
+    expectTraced(load());
+    EXPECT_TRUE(reports.empty());
+
+    // Cut, or with a bit that is another.
+    std::string other = whole;
+    other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 1);
+    for (const std::string& damaged : {whole.substr(0, whole.size() / 2), other, std::string()}) {
+        reports.clear();
+        writeFileWhole(files().front(), damaged);
+        expectTraced(load());
+        EXPECT_EQ(reports.size(), 1u);
+        EXPECT_EQ(readFile(files().front()), whole);
+    }
+
+    scene_.camera.position.x = 0.3;
+    expectTraced(load());
+    request_.samplesPerSide = 2;
+    expectTraced(load());
+    EXPECT_EQ(files().size(), 3u);
 }
 
 }  // namespace
