@@ -193,17 +193,23 @@ void EmbreeScene::addObject(const scene::Object& object) {
     objects_.push_back(std::move(placed));
 }
 
-void EmbreeScene::move(std::size_t object, std::span<const transport::VertexData> vertices) {
+bool EmbreeScene::move(std::size_t object, std::span<const transport::VertexData> vertices) {
+    const bool areNumbers =
+        std::all_of(vertices.begin(), vertices.end(), [](const transport::VertexData& vertex) {
+            return std::isfinite(vertex.position.x + vertex.position.y + vertex.position.z);
+        });
+    if (!areNumbers) return false;  // Embree has no answer to these
     ObjectMesh& mesh = *objects_[object];
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 1024),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t i = range.begin(); i < range.end(); ++i)
                               mesh.vertices[i] = mesh.placed(vertices[i]);
                       });
-    if (mesh.triangles->empty()) return;
+    if (mesh.triangles->empty()) return true;
     RTCGeometry geometry = rtcGetGeometry(everything_, static_cast<unsigned>(object));
     rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(geometry);
+    return true;
 }
 
 void EmbreeScene::refit() {

@@ -92,9 +92,9 @@ class EmbreeScene {
 
     // Moves the vertices of an object with a height field, which are in its mesh's space, to where
     // they are now; to be found there once refit() has been called, which fits the hierarchies
-    // anew. For scenes of HeightFields::moving, while nobody traces; bounds() and
-    // specularVertices() stay.
-    void move(std::size_t object, std::span<const transport::VertexData> vertices);
+    // anew. False, and nothing moves, where they are no numbers. For scenes of
+    // HeightFields::moving, while nobody traces; bounds() and specularVertices() stay.
+    bool move(std::size_t object, std::span<const transport::VertexData> vertices);
     void refit();
 
     // The first surface that the ray hits by its side rule; false: none.

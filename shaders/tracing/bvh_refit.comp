@@ -2,14 +2,9 @@
 // The bounds of one level of the hierarchy from those of the level below it. One thread a node.
 #include "include/thread.glsl"
 #include "framework/transport/bvh.h"
-#include "framework/transport/types.h"
 
-layout(std430) readonly buffer StillNodes {
-    BvhNode stillNodes[];  // whose children they are
-};
-layout(std430) readonly buffer BvhCorners {
-    VertexData bvhCorners[];
-};
+uniform usamplerBuffer stillNodes;  // BvhNode, four texels each: whose children they are
+uniform samplerBuffer bvhCorners;   // VertexData, two texels each
 layout(std430) buffer BvhBounds {
     vec4 bvhBounds[];  // lower and upper corner of each node, m
 };
@@ -23,7 +18,7 @@ void main() {
     uint thread = threadNumber();
     if (thread >= nodeCount) return;
     uint number = firstNode + thread;
-    uvec4 children = stillNodes[number].children;
+    uvec4 children = texelFetch(stillNodes, int(4u * number) + 1);
     vec3 lower[4] = vec3[4](vec3(3.4e38), vec3(3.4e38), vec3(3.4e38), vec3(3.4e38));
     vec3 upper[4] = vec3[4](vec3(-3.4e38), vec3(-3.4e38), vec3(-3.4e38), vec3(-3.4e38));
     vec3 lowest = vec3(3.4e38);
@@ -38,7 +33,7 @@ void main() {
             uint first = 3u * bvhLeafFirst(child);
             uint end = first + 3u * bvhLeafCount(child);
             for (uint corner = first; corner < end; ++corner) {
-                vec3 position = bvhCorners[corner].position;
+                vec3 position = texelFetch(bvhCorners, int(2u * corner)).xyz;
                 lower[i] = min(lower[i], position);
                 upper[i] = max(upper[i], position);
             }

@@ -17,10 +17,11 @@ struct MovedBvh {
 void makeCorners(const MovedBvh& data, const FrameInputs& inputs,
                  const render::ViewInstances& instances, gl::PassContext& context) {
     const render::SceneBvh& still = inputs.gpuScene.bvh();
+    // Of what does not move: read by the shader it would take longer than all the rest.
+    still.corners().copyTo(context.buffer(data.bvh.corners));
     gl::Command command = context.compute("tracing/bvh_corners.comp");
     inputs.gpuScene.bindTriangles(command, data.geometry);
-    command.storage("StillCorners", still.corners())
-        .storage("BvhSources", still.sources())
+    command.storage("BvhSources", still.sources())
         .storage("LocalInstances", instances.instances)
         .storage("BvhCorners", data.bvh.corners)
         .set("triangleCount", static_cast<unsigned>(still.triangleCount()))
@@ -32,8 +33,8 @@ void refit(const MovedBvh& data, const FrameInputs& inputs, gl::PassContext& con
     const render::SceneBvh& still = inputs.gpuScene.bvh();
     for (auto level = still.levels().rbegin(); level != still.levels().rend(); ++level) {
         context.compute("tracing/bvh_refit.comp")
-            .storage("StillNodes", still.nodes())
-            .storage("BvhCorners", data.bvh.corners)
+            .texels("stillNodes", still.nodes(), Format::rgba32ui)
+            .texels("bvhCorners", data.bvh.corners, Format::rgba32f)
             .storage("BvhBounds", data.bounds)
             .storage("BvhNodes", data.bvh.nodes)
             .set("firstNode", static_cast<unsigned>(level->first))
