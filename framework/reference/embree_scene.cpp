@@ -176,7 +176,7 @@ void EmbreeScene::addObject(const scene::Object& object) {
     const scene::Mesh& mesh = scene_.meshes[object.mesh];
     auto placed = std::make_unique<ObjectMesh>();
     placed->info = {scene_.materials[object.material].kind, object.material, mesh.closed};
-    placed->triangles = &mesh.triangles;
+    placed->triangles = mesh.triangles;
     placed->hasNormalMap = scene_.materials[object.material].normalMap >= 0;
     placed->toLocal = glm::translate(glm::dmat4(1.0), -center_) * object.toWorld *
                       glm::translate(glm::dmat4(1.0), mesh.origin);
@@ -205,7 +205,7 @@ bool EmbreeScene::move(std::size_t object, std::span<const transport::VertexData
                           for (std::size_t i = range.begin(); i < range.end(); ++i)
                               mesh.vertices[i] = mesh.placed(vertices[i]);
                       });
-    if (mesh.triangles->empty()) return true;
+    if (mesh.triangles.empty()) return true;
     RTCGeometry geometry = rtcGetGeometry(everything_, static_cast<unsigned>(object));
     rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(geometry);
@@ -232,7 +232,7 @@ void EmbreeScene::attach(Filters filters, HeightFields heightFields) {
     }
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         ObjectMesh& mesh = *objects_[i];
-        if (mesh.triangles->empty()) continue;
+        if (mesh.triangles.empty()) continue;
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         if (isMoving && scene_.meshes[scene_.objects[i].mesh].heightField)
             rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
@@ -240,8 +240,8 @@ void EmbreeScene::attach(Filters filters, HeightFields heightFields) {
                                    mesh.vertices.data(), offsetof(transport::VertexData, position),
                                    sizeof(transport::VertexData), mesh.vertices.size());
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                   mesh.triangles->data(), 0, sizeof(glm::uvec3),
-                                   mesh.triangles->size());
+                                   mesh.triangles.data(), 0, sizeof(glm::uvec3),
+                                   mesh.triangles.size());
         rtcSetGeometryUserData(geometry, &mesh.info);
         // A photon's path ends at receivers, so only specular surfaces can be hit again.
         if (filters == Filters::sideRules) {
@@ -285,7 +285,7 @@ glm::dvec3 EmbreeScene::shadingNormal(const ObjectMesh& mesh, const glm::uvec3& 
 void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, const RTCHit& found,
                          float t, SurfaceHit& hit) const {
     const ObjectMesh& mesh = *objects_[found.geomID];
-    const glm::uvec3 corners = (*mesh.triangles)[found.primID];
+    const glm::uvec3 corners = mesh.triangles[found.primID];
     const transport::VertexData& cornerA = mesh.vertices[corners.x];
     const transport::VertexData& cornerB = mesh.vertices[corners.y];
     const transport::VertexData& cornerC = mesh.vertices[corners.z];
@@ -343,7 +343,7 @@ glm::dmat3 EmbreeScene::mappedTurning(const ObjectMesh& mesh, const glm::uvec3& 
 glm::dmat3 EmbreeScene::normalTurning(const TriangleId& triangle,
                                       const glm::dvec3& position) const {
     const ObjectMesh& mesh = *objects_[triangle.object];
-    const glm::uvec3 corners = (*mesh.triangles)[triangle.triangle];
+    const glm::uvec3 corners = mesh.triangles[triangle.triangle];
     const transport::VertexData& a = mesh.vertices[corners.x];
     const transport::VertexData& b = mesh.vertices[corners.y];
     const transport::VertexData& c = mesh.vertices[corners.z];

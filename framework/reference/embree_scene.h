@@ -150,7 +150,7 @@ class EmbreeScene {
         glm::dmat3 normalToLocal{1.0};
         // Local; normals by the inverse transpose, not unit, as on the GPU.
         std::vector<transport::VertexData> vertices;
-        const std::vector<glm::uvec3>* triangles = nullptr;
+        std::vector<glm::uvec3> triangles;  // a copy: the scene may be read anew
         [[nodiscard]] transport::VertexData placed(const transport::VertexData& vertex) const;
     };
     void addObject(const scene::Object& object);
