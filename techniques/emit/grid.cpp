@@ -169,12 +169,14 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
         rows.cells.rows = grid.height;
         rows.cells.endOwn = grid.height;
     }
+    const SightFinder finder(frame, params.sight, isOfSquares, surfaces.geometry);
     const std::string reason =
         grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"
-        : isOfSquares  ? "finer photons in the squares that are refined"
-                       : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
-                                     grids->size(), grids->size() == 1 ? "" : "s");
-    const SightFinder finder(frame, params.sight, isOfSquares, surfaces.geometry);
+        : isOfSquares
+            ? "finer photons in the squares that are refined"
+            : fmt::format("{} photons a light, {} light{}; what it sees is {}",
+                          grid.width * grid.height, grids->size(), grids->size() == 1 ? "" : "s",
+                          finder.isTraced() ? "traced by the processor" : "drawn");
     return frame
         .pass<GridEmission>(
             "emit.grid", reason,
