@@ -13,7 +13,7 @@ namespace kaustik::numerics {
 namespace {
 
 // Those that store all of a photon's flux in a map's own texels. A multi-resolution map has some of
-// it in coarser ones, which see no edges (tests/gpu/techniques/adaptive_caustic_map_test.cpp).
+// it in coarser ones, which see no edges (tests/gpu/techniques/hierarchical_caustic_map_test.cpp).
 std::vector<Lab::Choice> inOneMap(const Lab& lab) {
     std::vector<Lab::Choice> choices = lab.each<ReconstructStage>();
     std::erase_if(choices, [](const Lab::Choice& choice) {

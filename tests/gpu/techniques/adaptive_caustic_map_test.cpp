@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adaptive and hierarchical caustic maps (WN09, W08): which photons there are, that nothing of
+// Adaptive caustic maps (WN09): which photons there are, that nothing of
 // their light is lost or doubled, and that neither batches nor the way in which they are chosen
 // change anything.
 #include <fmt/format.h>
@@ -13,8 +13,7 @@
 
 #include "framework/core/error.h"
 #include "framework/numerics/cases/scene_text.h"
-#include "tests/gpu/fixture.h"
-#include "tests/gpu/techniques/caustic_map_frame.h"
+#include "tests/gpu/techniques/ball_maps.h"
 
 namespace kaustik::test {
 namespace {
@@ -22,33 +21,6 @@ namespace {
 using namespace numerics;
 using namespace transport;
 using glm::dvec3;
-
-const CameraText kAbove{{0.0, 3.0, 4.0}, {0.0, 0.0, 0.0}, 45.0, 0.01};
-
-std::string lamp(const std::string& name, const dvec3& position, const dvec3& direction) {
-    return fmt::format(
-        "[[light]]\nname = \"{}\"\ntype = \"spot\"\nposition = {}\ndirection = {}\n"
-        "inner_cone_degrees = 25\nouter_cone_degrees = 30\nintensity = 100\n",
-        name, numbers(position), numbers(direction));
-}
-
-// Towards the origin.
-std::string lamp(const std::string& name, const dvec3& position) {
-    return lamp(name, position, -position);
-}
-
-const std::string kFloor = floorPlane("floor", "grey", 6, {0, 0, 0});
-const std::string kBall =
-    object("ball", "sphere", "glass", {0, 0.8, 0}, "radius = 0.4\nsegments = 48");
-
-scene::Scene ballScene(const std::string& lights) {
-    return makeScene(kAbove, lights + kFloor + kBall);
-}
-
-Settings with(Settings settings, const Settings& more) {
-    settings.insert(settings.end(), more.begin(), more.end());
-    return settings;
-}
 
 // Of 256 x 256 cells, of which the metric is asked from 32 x 32 on.
 MapFrame adaptive(const scene::Scene& scene, const Settings& more) {
@@ -59,21 +31,6 @@ MapFrame adaptive(const scene::Scene& scene, const Settings& more) {
                   {"emit.deferred.size", "256"},
                   {"reconstruct.map_size", "128"}},
                  more)};
-}
-
-MapFrame gridded(const scene::Scene& scene, const std::string& technique, const Settings& more) {
-    return {scene, technique,
-            with({{"emit", "deferred"},
-                  {"specular", "deferred"},
-                  {"emit.photons", "256x256"},
-                  {"emit.deferred.size", "256"},
-                  {"reconstruct.map_size", "128"},
-                  {"reconstruct.fixed.diameter", "3"}},
-                 more)};
-}
-
-CellCounts countsOf(const MapFrame& frame) {
-    return frame.renderer().buffer(frame.renderer().outputs().cells).read<CellCounts>().front();
 }
 
 // Photons by where they enter and what they carry, however they are ordered.
@@ -328,111 +285,6 @@ TEST(DeferredEmission, DrawnOnceIsDrawnTwice) {
         const double ofTwice = storedIn(twice).sum().g;
         EXPECT_NEAR(storedIn(once).sum().g, ofTwice, 1e-4 * ofTwice);
     }
-}
-
-TEST(HierarchicalMaps, OfToleranceZeroAreTheDenseGrids) {
-    const scene::Scene scene =
-        ballScene(lamp("lamp", {0.5, 3.0, 0.3}) + lamp("other", {-1.0, 2.5, 0.8}));
-    const MapFrame dense = gridded(scene, "caustic_map", {});
-    const MapFrame whole = gridded(scene, "hierarchical_caustic_map", {{"refine.tolerance", "0"}});
-    EXPECT_EQ(dense.words(), whole.words());
-    EXPECT_EQ(countsOf(whole).merged, 0u);
-}
-
-TEST(HierarchicalMaps, StoreAllLightInFewerPhotons) {
-    const scene::Scene scene =
-        ballScene(lamp("lamp", {0.5, 3.0, 0.3}) + lamp("other", {-1.0, 2.5, 0.8}));
-    const MapFrame dense = gridded(scene, "caustic_map", {});
-    const MapFrame merged = gridded(scene, "hierarchical_caustic_map", {});
-    EXPECT_LT(countsOf(merged).emitted, countsOf(merged).probes / 2);
-    EXPECT_NEAR(merged.watts(kAccountDeposited), dense.watts(kAccountDeposited),
-                1e-3 * dense.watts(kAccountDeposited));
-    merged.expectBalance();
-    // Whole squares of cells in every batch.
-    const MapFrame parts = gridded(scene, "hierarchical_caustic_map", {{"emit.batch", "16384"}});
-    EXPECT_EQ(merged.words(), parts.words());
-}
-
-// Squares of 2^level by 2^level of 256 x 256 cells that hold photons which arrive.
-std::set<std::pair<unsigned, unsigned>> squaresOf(const std::vector<MapPhoton>& photons,
-                                                  unsigned level) {
-    std::set<std::pair<unsigned, unsigned>> squares;
-    for (const MapPhoton& photon : photons) {
-        if (photon.hitFate == kFateReceiver)
-            squares.emplace((photon.cell % 256) >> level, (photon.cell / 256) >> level);
-    }
-    return squares;
-}
-
-TEST(HierarchicalMaps, AreWalkedOverTheSquaresThatHoldPhotonsFromTheTopDown) {
-    const scene::Scene scene = ballScene(lamp("lamp", {0.5, 3.0, 0.3}));
-    const Settings coarse = {{"reconstruct.map_size", "16"}};
-    const std::vector<MapPhoton> dense = gridded(scene, "caustic_map", coarse).photons();
-    const CellCounts all = countsOf(
-        gridded(scene, "hierarchical_caustic_map", with(coarse, {{"refine.tolerance", "0"}})));
-    for (unsigned level = 0; level < kSquareLevels; ++level) {
-        const std::size_t wanted = level <= 8 ? squaresOf(dense, level).size() : 0;
-        EXPECT_EQ(all.squares[level], wanted) << level;
-    }
-    EXPECT_EQ(all.probes, all.emitted);
-    // One photon will do for whatever lies in the map: only the squares of 64 x 64 cells, the
-    // coarsest that may be one, and those above are looked at, but for squares with one photon
-    // alone.
-    const MapFrame merged =
-        gridded(scene, "hierarchical_caustic_map", with(coarse, {{"refine.tolerance", "64"}}));
-    const CellCounts few = countsOf(merged);
-    EXPECT_EQ(few.squares[8], all.squares[8]);
-    EXPECT_EQ(few.squares[7], all.squares[7]);
-    EXPECT_EQ(few.squares[6], all.squares[6]);
-    EXPECT_EQ(few.emitted, few.merged + few.squares[0]);
-    EXPECT_EQ(few.probes, all.probes);
-    unsigned looks = 0;
-    for (const unsigned squares : few.squares)
-        looks += squares;
-    // Of what a walk for each photon would look at.
-    EXPECT_LT(looks, few.probes * 8 / 50);
-    merged.expectBalance();
-}
-
-// Merged photons that diverge are in coarser levels, whatever the batches.
-TEST(HierarchicalMaps, EndInAMapOfSeveralResolutions) {
-    const scene::Scene scene =
-        ballScene(lamp("lamp", {0.5, 3.0, 0.3}) + lamp("other", {-1.0, 2.5, 0.8}));
-    const Settings levels = {
-        {"reconstruct", "multi_level"}, {"filter", "level_sum"}, {"reconstruct.map_size", "512"}};
-    const MapFrame dense = gridded(scene, "caustic_map", levels);
-    const MapFrame whole = gridded(scene, "hierarchical_caustic_map", levels);
-    EXPECT_GT(countsOf(whole).merged, 100u);
-    EXPECT_GT(storedIn(whole, 1).sum().g, 0.01 * storedIn(whole, 0).sum().g);
-    EXPECT_NEAR(whole.watts(kAccountDeposited), dense.watts(kAccountDeposited),
-                1e-3 * dense.watts(kAccountDeposited));
-    whole.expectBalance();
-    const MapFrame parts =
-        gridded(scene, "hierarchical_caustic_map", with(levels, {{"emit.batch", "16384"}}));
-    EXPECT_EQ(whole.words(), parts.words());
-    // Squares that lie in one batch are the same.
-    for (int level = 0; level <= 6; ++level)
-        EXPECT_EQ(countsOf(whole).squares[level], countsOf(parts).squares[level]) << level;
-    const MapFrame apart =
-        gridded(scene, "hierarchical_caustic_map", with(levels, {{"refine.tolerance", "0"}}));
-    EXPECT_EQ(apart.words(), dense.words());
-}
-
-// What coarser levels hold comes back as it was stored.
-TEST(MultiLevelMaps, KeepTheirLight) {
-    const scene::Scene scene = ballScene(lamp("lamp", {0.5, 3.0, 0.3}));
-    const MapFrame frame(scene, "adaptive_caustic_map",
-                         {{"refine.finest", "64"},
-                          {"refine.start", "16"},
-                          {"refine.check", "32"},
-                          {"reconstruct.map_size", "256"},
-                          {"reconstruct", "multi_level"},
-                          {"filter", "level_sum"}});
-    const dvec3 fine = storedIn(frame, 0).sum();
-    const dvec3 coarse = storedIn(frame, 1).sum();
-    EXPECT_GT(coarse.g, 0.1 * fine.g);
-    EXPECT_NEAR(frame.filtered().sum().g, fine.g + coarse.g, 1e-3 * (fine.g + coarse.g));
-    frame.expectBalance();
 }
 
 TEST(AdaptiveMedium, ScattersWhatADenseGridScatters) {
