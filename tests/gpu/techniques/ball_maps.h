@@ -55,8 +55,11 @@ inline MapFrame gridded(const scene::Scene& scene, const std::string& technique,
                  more)};
 }
 
-inline CellCounts countsOf(const MapFrame& frame) {
-    return frame.renderer().buffer(frame.renderer().outputs().cells).read<CellCounts>().front();
+inline transport::CellCounts countsOf(const MapFrame& frame) {
+    return frame.renderer()
+        .buffer(frame.renderer().outputs().cells)
+        .read<transport::CellCounts>()
+        .front();
 }
 
 }  // namespace kaustik::test
