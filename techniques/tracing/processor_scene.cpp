@@ -2,6 +2,7 @@
 #include "techniques/tracing/processor_scene.h"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace kaustik {
@@ -66,10 +67,10 @@ ProcessorScene processorScene(FrameBuilder& frame, const Geometry& geometry) {
             return std::make_shared<ProcessorScene>(movedScene(frame, geometry));
         const auto make = [&] { return std::make_shared<reference::EmbreeScene>(frame.scene()); };
         const char* const still = "processor.still_scene";
-        return std::make_shared<ProcessorScene>(
-            frame.gpuScene().heightFields().empty()
-                ? frame.onceForScene<reference::EmbreeScene>(still, make)
-                : frame.once<reference::EmbreeScene>(still, make));
+        auto scene = frame.gpuScene().heightFields().empty()
+                         ? frame.onceForScene<reference::EmbreeScene>(still, make)
+                         : frame.once<reference::EmbreeScene>(still, make);
+        return std::make_shared<ProcessorScene>(ProcessorScene{std::move(scene), {}});
     });
 }
 

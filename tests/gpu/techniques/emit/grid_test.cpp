@@ -155,11 +155,10 @@ TEST(GridSight, IsTheSameDrawnAndTraced) {
         // batches.
         for (const char* batch : {"4096", "600"}) {
             const auto fluxes = [&](const std::string& sight) {
-                const Frame frame(scene, 64, 48,
-                                  {{"emit.photons", "48x48"},
-                                   {"emit.batch", batch},
-                                   {"emit.grid.sight", sight}},
-                                  {"photons.flux"}, false, "exact_rays");
+                const Frame frame(
+                    scene, 64, 48,
+                    {{"emit.photons", "48x48"}, {"emit.batch", batch}, {"emit.grid.sight", sight}},
+                    {"photons.flux"}, false, "exact_rays");
                 return std::pair(
                     frame.renderer().texture(frame.renderer().graph().find("photons.flux")).read(),
                     frame.renderer().ledger().watts[kAccountEmitted]);
