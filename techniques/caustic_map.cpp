@@ -19,6 +19,7 @@ void registerCausticMap(Registry& registry) {
                          {"emit.photons", "512x512"},
                          {"reconstruct", "fixed"}},
                         {{"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular.two_interfaces.distance", "estimates"},
                          {"trace.background.steps", "0"},
                          {"reconstruct.fixed.edges", "crossed"},

@@ -20,6 +20,7 @@ void registerCausticTriangles(Registry& registry) {
                          {"view", "around"},
                          {"emit.photons", "128x128"}},
                         {{"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular", "interface"},
                          {"reconstruct.triangles.unjoined", "discard"},
                          {"gather.cube.incidence", "centre"}}});

@@ -21,6 +21,7 @@ void registerEyeGather(Registry& registry) {
                          {"reconstruct.space", "screen"},
                          {"gather", "screen"}},
                         {{"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular.two_interfaces.distance", "estimates"},
                          {"trace.background.steps", "0"},
                          {"reconstruct.lens.edges", "crossed"},

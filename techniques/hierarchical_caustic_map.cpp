@@ -25,6 +25,7 @@ void registerHierarchicalCausticMap(Registry& registry) {
                          {"view", "image_space"}},
                         {{"emit", "grid"},
                          {"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular", "two_interfaces"},
                          {"specular.two_interfaces.distance", "estimates"},
                          {"trace.background.steps", "0"},

@@ -20,6 +20,7 @@ void registerLensSplats(Registry& registry) {
                          {"specular.two_interfaces.lens", "thin"},
                          {"reconstruct", "lens"}},
                         {{"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular.two_interfaces.distance", "estimates"},
                          {"trace.background.steps", "0"},
                          {"reconstruct.lens.edges", "crossed"},

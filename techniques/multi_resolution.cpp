@@ -20,6 +20,7 @@ void registerMultiResolution(Registry& registry) {
                          {"reconstruct", "four_radii"},
                          {"filter", "blend"}},
                         {{"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular.two_interfaces.distance", "estimates"},
                          {"trace.background.steps", "0"},
                          {"reconstruct.four_radii.edges", "crossed"},

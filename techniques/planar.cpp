@@ -16,6 +16,7 @@ void registerPlanar(Registry& registry) {
                          {"reconstruct", "triangles"},
                          {"view", "refraction"}},
                         {{"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular", "interface"},
                          {"reconstruct", "sprites"},
                          {"reconstruct.sprites.shape", "disc"},

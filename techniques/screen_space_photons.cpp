@@ -19,6 +19,7 @@ void registerScreenSpacePhotons(Registry& registry) {
                          {"layers.peel.counting", "reduce"},
                          {"shadow", "rays"},
                          {"emit.grid.subcells", "1"},
+                         {"emit.grid.sight", "raster"},
                          {"specular", "interface"},
                          {"trace", "lines"},
                          {"trace.test", "epsilon"},

@@ -169,7 +169,9 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
         rows.cells.rows = grid.height;
         rows.cells.endOwn = grid.height;
     }
-    const SightFinder finder(frame, params.sight, isOfSquares, surfaces.geometry);
+    // Where nothing is to be seen nobody traces.
+    const SightFinder finder(frame, grids->empty() ? SightBy::raster : params.sight, isOfSquares,
+                             surfaces.geometry);
     const std::string reason =
         grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"
         : isOfSquares

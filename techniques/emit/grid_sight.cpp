@@ -5,7 +5,7 @@
 
 #include "framework/core/error.h"
 #ifdef KAUSTIK_HAS_EMBREE
-#include "techniques/tracing/processor_sight.h"
+#include "techniques/emit/processor_sight.h"
 #endif
 
 namespace kaustik {

@@ -70,13 +70,30 @@ int numberOfSeenCell(ivec2 cell) {
     bool isIn = cell.x >= 0 && cell.x < gridSize.x && row >= 0 && row < sightRows;
     return isIn ? row * gridSize.x + cell.x : -1;
 }
+#else
+uvec2 seenThroughPart(ivec2 cell, ivec2 neighbourOffset) {
+    ivec2 texel = (cell - ivec2(0, sightFirstRow)) * subcells + subcells / 2 + neighbourOffset;
+    ivec2 size = textureSize(sight, 0);
+    bool isIn = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
+    return isIn ? texelFetch(sight, texel, 0).xy : uvec2(0u);
+}
+#endif
 
+// What the light sees through the middle of a cell. x: object's index + 1, 0 where nothing is or the
+// grid has ended; y: the triangle.
 uvec2 seenThrough(ivec2 cell) {
+#ifdef SIGHT_OF_CELLS
     int number = numberOfSeenCell(cell);
     return number >= 0 ? texelFetch(sightOfCells, number).xy : uvec2(0u);
+#else
+    return seenThroughPart(cell, ivec2(0));
+#endif
 }
 
+// The object, index + 1, through the middle of the sub-cell that lies so many next to the middle of
+// the cell.
 uint objectThrough(ivec2 cell, ivec2 neighbourOffset) {
+#ifdef SIGHT_OF_CELLS
     ivec2 part = subcells / 2 + neighbourOffset;
     // No more than a few cells away: exact.
     ivec2 away = ivec2(floor((vec2(part) + 0.5) / float(subcells)));
@@ -86,23 +103,10 @@ uint objectThrough(ivec2 cell, ivec2 neighbourOffset) {
     if (seen.z == 0u) return seen.x;
     ivec2 inCell = part - away * subcells;
     return texelFetch(sightOfParts, int(seen.z) - 1 + inCell.y * subcells + inCell.x).x;
-}
 #else
-uvec2 seenAt(ivec2 cell, ivec2 neighbourOffset) {
-    ivec2 texel = (cell - ivec2(0, sightFirstRow)) * subcells + subcells / 2 + neighbourOffset;
-    ivec2 size = textureSize(sight, 0);
-    bool isIn = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
-    return isIn ? texelFetch(sight, texel, 0).xy : uvec2(0u);
-}
-
-// What the light sees through the middle of a cell. x: object's index + 1, 0 where nothing is or the
-// grid has ended; y: the triangle.
-uvec2 seenThrough(ivec2 cell) { return seenAt(cell, ivec2(0)); }
-
-// The object, index + 1, through the middle of the sub-cell that lies so many next to the middle of
-// the cell.
-uint objectThrough(ivec2 cell, ivec2 neighbourOffset) { return seenAt(cell, neighbourOffset).x; }
+    return seenThroughPart(cell, neighbourOffset).x;
 #endif
+}
 
 vec2 sizeOfCell() { return 2.0 * halfExtent / vec2(gridSize); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/tracing/processor_sight.h"
+#include "techniques/emit/processor_sight.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
