@@ -35,6 +35,11 @@ inline void findAnyHit(RTCScene scene, QueryContext& context, RTCRay& ray) {
     rtcOccluded1(scene, &context, &ray);
 }
 
+inline void findAnyHits(RTCScene scene, QueryContext& context, const int* valid, RTCRay8& query) {
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &context, &query);
+}
+
 #else
 
 using QueryContext = RTCRayQueryContext;
@@ -64,6 +69,14 @@ inline void findAnyHit(RTCScene scene, QueryContext& context, RTCRay& ray) {
     rtcInitOccludedArguments(&arguments);
     arguments.context = &context;
     rtcOccluded1(scene, &ray, &arguments);
+}
+
+inline void findAnyHits(RTCScene scene, QueryContext& context, const int* valid, RTCRay8& query) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &query, &arguments);
 }
 
 #endif

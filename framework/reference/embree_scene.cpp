@@ -42,6 +42,7 @@ struct FilterContext {
     SideRule sides;
     std::uint32_t leftSide;
     float reachMeters;
+    const float* resolvedMeters;  // of rays to lights, by their numbers; else null
 };
 
 bool isStart(const FilterContext& context, const RTCHit& hit) {
@@ -78,9 +79,28 @@ void rejectWrongSide(const RTCFilterFunctionNArguments* arguments) {
     if (!isHit) arguments->valid[0] = 0;
 }
 
+// For rays to lights, of which there are several.
+void rejectOwnPlane(const FilterContext& context, const RTCFilterFunctionNArguments* arguments) {
+    const unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, n, i),
+                               RTCHitN_Ng_y(arguments->hit, n, i),
+                               RTCHitN_Ng_z(arguments->hit, n, i));
+        const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, n, i),
+                                  RTCRayN_dir_y(arguments->ray, n, i),
+                                  RTCRayN_dir_z(arguments->ray, n, i));
+        const float closing = std::abs(glm::dot(normal, direction));
+        const float resolved = context.resolvedMeters[RTCRayN_id(arguments->ray, n, i)];
+        if (RTCRayN_tfar(arguments->ray, n, i) * closing <= resolved * glm::length(normal))
+            arguments->valid[i] = 0;
+    }
+}
+
 // For receivers and mirrors between a point and the eye.
 void rejectStart(const RTCFilterFunctionNArguments* arguments) {
     const auto& context = *reinterpret_cast<const FilterContext*>(arguments->context);
+    if (context.resolvedMeters != nullptr) return rejectOwnPlane(context, arguments);
     const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
     if (isStart(context, hit)) arguments->valid[0] = 0;
 }
@@ -93,6 +113,7 @@ FilterContext makeContext(const TriangleId& start, const MediaStack& media, Side
     context.sides = sides;
     context.leftSide = transport::kLeftNone;
     context.reachMeters = 0.0f;
+    context.resolvedMeters = nullptr;
     return context;
 }
 
@@ -320,6 +341,15 @@ void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, 
     hit.triangle = {found.geomID, found.primID};
 }
 
+double EmbreeScene::uvPerMeter(const TriangleId& triangle) const {
+    const ObjectMesh& mesh = *objects_[triangle.object];
+    const glm::uvec3& corners = mesh.triangles[triangle.triangle];
+    const transport::VertexData& a = mesh.vertices[corners.x];
+    const transport::VertexData& b = mesh.vertices[corners.y];
+    const double side = glm::distance(glm::dvec3(a.position), glm::dvec3(b.position));
+    return glm::distance(uvOf(a), uvOf(b)) / std::max(side, 1e-12);
+}
+
 // By differences over a texel: the map is linear between two.
 glm::dmat3 EmbreeScene::mappedTurning(const ObjectMesh& mesh, const glm::uvec3& corners,
                                       const Sides& sides, const glm::dvec3& fromFirst) const {
@@ -431,6 +461,35 @@ bool EmbreeScene::intersectStraight(const glm::dvec3& origin, const glm::dvec3& 
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     refine(origin, direction, query.hit, query.ray.tfar, hit);
     return true;
+}
+
+std::uint32_t EmbreeScene::blockedRays(const std::array<RayToLight, kRaysTogether>& rays,
+                                       int count) const {
+    const MediaStack none;
+    FilterContext context = makeContext({}, none, SideRule::any);
+    std::array<float, kRaysTogether> resolved{};
+    context.resolvedMeters = resolved.data();
+    alignas(32) std::array<int, kRaysTogether> valid{};
+    RTCRay8 query{};
+    for (int i = 0; i < count; ++i) {
+        const RayToLight& ray = rays[static_cast<std::size_t>(i)];
+        valid[static_cast<std::size_t>(i)] = -1;
+        resolved[static_cast<std::size_t>(i)] = ray.resolvedMeters;
+        query.org_x[i] = ray.origin.x;
+        query.org_y[i] = ray.origin.y;
+        query.org_z[i] = ray.origin.z;
+        query.dir_x[i] = ray.direction.x;
+        query.dir_y[i] = ray.direction.y;
+        query.dir_z[i] = ray.direction.z;
+        query.tfar[i] = ray.reachMeters;
+        query.mask[i] = 0xffffffffu;
+        query.id[i] = static_cast<unsigned>(i);
+    }
+    findAnyHits(everything_, context.embree, valid.data(), query);
+    std::uint32_t blocked = 0;
+    for (int i = 0; i < count; ++i)
+        blocked |= query.tfar[i] < 0.0f ? std::uint32_t{1} << i : 0u;
+    return blocked;
 }
 
 bool EmbreeScene::isVisible(const glm::dvec3& from, const TriangleId& start, const glm::dvec3& to,

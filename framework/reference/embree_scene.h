@@ -62,6 +62,14 @@ struct OpenRay {
     glm::vec3 direction{0.0f};  // of any length but 0
     float from = 0.0f;          // what is nearer, by the direction's length, is not hit
 };
+// A ray from a surface back to a light, in whose way all surfaces are from both sides but for those
+// whose plane passes its origin nearer than what is known of that.
+struct RayToLight {
+    glm::vec3 origin{0.0f};     // local
+    glm::vec3 direction{0.0f};  // unit
+    float reachMeters = 0.0f;   // what lies farther is not in the way
+    float resolvedMeters = 0.0f;
+};
 inline constexpr int kRaysTogether = 8;
 
 struct SurfaceHit {
@@ -110,6 +118,10 @@ class EmbreeScene {
     [[nodiscard]] std::array<TriangleId, kRaysTogether> firstTriangles(
         const std::array<OpenRay, kRaysTogether>& rays, int count) const;
 
+    // Which of the first `count` rays something is in the way of, a bit each; as above.
+    [[nodiscard]] std::uint32_t blockedRays(const std::array<RayToLight, kRaysTogether>& rays,
+                                            int count) const;
+
     // The first receiver or mirror on the eye's straight ray, dielectrics being invisible to it.
     [[nodiscard]] bool intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,
                                          SurfaceHit& hit) const;
@@ -124,9 +136,14 @@ class EmbreeScene {
     [[nodiscard]] glm::dmat3 normalTurning(const TriangleId& triangle,
                                            const glm::dvec3& position) const;
 
+    // What uv differs by along the first side of a triangle, 1/m.
+    [[nodiscard]] double uvPerMeter(const TriangleId& triangle) const;
+
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
     [[nodiscard]] const Appearance& appearance() const { return appearance_; }
     [[nodiscard]] const glm::dvec3& center() const { return center_; }
+    // That local coordinates may be off by, as 32-bit floats, m.
+    [[nodiscard]] double roundingMeters() const { return roundingMeters_; }
     // Local bounds of all meshes as they are now.
     [[nodiscard]] const scene::Bounds& bounds() const { return bounds_; }
     // Corners of all specular triangles, local: what emission aims at.
@@ -173,7 +190,7 @@ class EmbreeScene {
     Appearance appearance_;
     glm::dvec3 center_{0.0};
     scene::Bounds bounds_;
-    double roundingMeters_ = 0.0;  // that coordinates may be off by, as 32-bit floats
+    double roundingMeters_ = 0.0;
     std::vector<std::unique_ptr<ObjectMesh>> objects_;  // addresses stay: Embree reads them
     std::vector<glm::dvec3> specularVertices_;
     RTCDevice device_ = nullptr;

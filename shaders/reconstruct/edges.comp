@@ -1,26 +1,45 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.edges: the receivers at four places of a pixel in which a surface ends, on the straight
-// rays of the eye, to which dielectrics are invisible. Where all of them are on the surface that is
+// rays of the eye, to which dielectrics are invisible (SEEN_BY_PROCESSOR: found there). Where all of them are on the surface that is
 // seen at its middle the pixel is at no edge, and where there are more pixels than the list holds
 // none is: which ones it holds is not the same in each frame. One thread a pixel of the list.
-#include "include/surfaces/bvh.glsl"
 #include "include/surfaces/surface_data.glsl"
 #include "include/thread.glsl"
 #include "include/views/octahedral.glsl"
 #include "reconstruct/edges.glsl"
 #include "include/views/edge_places.glsl"
+#ifndef SEEN_BY_PROCESSOR
+#include "include/surfaces/bvh.glsl"  // last: what it includes is there once
+#endif
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
 layout(rgba32f) writeonly uniform image2D edgeReceiver;
 layout(rgba32f) writeonly uniform image2D edgeSamples;
 
+// What a ray through a place of a pixel sees: `depth` negative of a mirror, m, 0 of nothing.
+vec4 edgeSample(vec3 ray, float depth, vec3 shading, vec3 geometric) {
+    return vec4(depth, depth > 0.0 ? pixelArea(ray, depth, geometric) : 0.0,
+                packUnitVector(shading));
+}
+
+#ifdef SEEN_BY_PROCESSOR
+uniform samplerBuffer seenAtPlaces;  // SeenAtPlace, two texels
+
+vec4 receiverSeenAt(uint number, int i, vec2 place) {
+    int texel = 2 * (int(number) * kEdgeSamples + i);
+    vec4 shading = texelFetch(seenAtPlaces, texel);
+    if (shading.w == 0.0) return vec4(0.0);
+    return edgeSample(viewRay(place), shading.w, shading.xyz,
+                      texelFetch(seenAtPlaces, texel + 1).xyz);
+}
+#else
 bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height) {
     uint kind = materialKind(bvhSources[triangle].material - 1u);
     return isReceiver(kind) || kind == kMaterialMirror;
 }
 
-vec4 receiverSeenAt(vec2 place) {
+vec4 receiverSeenAt(uint number, int i, vec2 place) {
     vec3 ray = viewRay(place);
     float perDepth = length(ray);
     // What is nearer than the near plane hides nothing.
@@ -29,12 +48,12 @@ vec4 receiverSeenAt(vec2 place) {
     if (hit.triangle == kBvhNone) return vec4(0.0);
     PointOnTriangle point = pointOfHit(local, hit);
     float depth = view.frustum.z + hit.distance / perDepth;
-    vec3 geometric = localToEye(point.geometric);
-    vec3 normal = localToEye(shadingNormal(point.normal, point.geometric));
     bool isLit = isReceiver(materialKind(bvhSources[hit.triangle].material - 1u));
-    return vec4(isLit ? depth : -depth, isLit ? pixelArea(ray, depth, geometric) : 0.0,
-                packUnitVector(normal));
+    return edgeSample(ray, isLit ? depth : -depth,
+                      localToEye(shadingNormal(point.normal, point.geometric)),
+                      localToEye(point.geometric));
 }
+#endif
 
 void main() {
     uint number = threadNumber();
@@ -53,7 +72,7 @@ void main() {
     bool isOne = true;
     for (int i = 0; i < kEdgeSamples; ++i) {
         vec2 place = vec2(pixel) + edgePlace(i);
-        vec4 seen = receiverSeenAt(place);
+        vec4 seen = receiverSeenAt(number, i, place);
         isOne = isOne &&
                 (depth > 0.0 ? continuesPlane(point, normal, margin, place, seen.x,
                                       unpackUnitVector(seen.zw))

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees in and through specular surfaces, by rays that are traced exactly: refracted
 // and totally reflected as often as it takes, both branches followed at the first interfaces.
-// Receivers that the picture shows have their light from it, caustics and all; the others are lit
-// here, with the lights' own shadows. Radiance changes by T or R at every interface and by 1/n² where
+// Radiance changes by T or R at every interface and by 1/n² where
 // what is seen lies in a medium of index n (hard case 28a), and is absorbed on the way. One thread a
 // pixel of those that look at something specular.
-#include "include/surfaces/albedo.glsl"
 #include "include/surfaces/bvh.glsl"
 #include "include/surfaces/environment.glsl"
 #include "include/surfaces/side_rule.glsl"
 #include "include/views/mirror_path.glsl"
-#include "include/views/shown_radiance.glsl"
 #include "include/thread.glsl"
-#include "include/views/view_sample.glsl"
 #include "view/bvh_pixels.glsl"
-
-layout(rgba32f) uniform image2D viewRadiance;
-#ifndef BESIDE_MIDDLE
-layout(rgba32f) writeonly uniform image2D viewExitPosition;
-layout(rgba32f) writeonly uniform image2D viewExitDirection;
-#endif
 
 // What the ray that is being traced may hit.
 const uint kHitsAll = 0u;        // from the eye: every surface from both sides
@@ -56,9 +46,10 @@ struct Seen {
     vec3 shading;    // unit, outward
     vec3 geometric;  // the same of the triangle
     uint material;   // + 1; 0: there is none
+    float pathMeters;  // from the eye, where it is a receiver
     BvhHit hit;
-    BvhRay ray;
 };
+#include "view/seen_receiver.glsl"
 
 Seen seenBy(EyePath path) {
     BvhRay ray = bvhRay(path.at.origin, path.at.direction);
@@ -67,7 +58,7 @@ Seen seenBy(EyePath path) {
     // A ray that is traced exactly is known to a few roundings.
     resolvedNow = localRounding + 4e-6 * length(path.at.origin);
     BvhHit hit = traceBvh(ray, 3.0e38);
-    Seen seen = Seen(path.at.origin, vec3(0.0), vec3(0.0), 0u, hit, ray);
+    Seen seen = Seen(path.at.origin, vec3(0.0), vec3(0.0), 0u, 0.0, hit);
     if (hit.triangle == kBvhNone) return seen;
     PointOnTriangle point = pointOfHit(ray, hit);
     seen.positionVs = path.at.origin + hit.distance * path.at.direction;
@@ -77,23 +68,32 @@ Seen seenBy(EyePath path) {
     return seen;
 }
 
-// Reflectance at the hit, over what a pixel's footprint after a path of this length covers.
-vec3 albedoOfSeen(Seen seen, float pathMeters) {
+// Over what a pixel's footprint after a path of this length covers. By the place alone: of the ray
+// that has hit it Mesa's software rasteriser has forgotten some of what threads knew that left the
+// loop before others.
+vec3 albedoOfSeen(Seen seen) {
     VertexData corners[3];
     for (uint i = 0u; i < 3u; ++i)
         corners[i] = bvhCornerAt(seen.hit.triangle, i);
-    vec3 weights = weightsOfHit(seen.ray, seen.hit.triangle);
-    vec2 uv = weights.x * vec2(corners[0].u, corners[0].v) +
-              weights.y * vec2(corners[1].u, corners[1].v) +
-              weights.z * vec2(corners[2].u, corners[2].v);
+    vec3 place = (localFromEye * vec4(seen.positionVs, 1.0)).xyz;
+    vec3 area = cross(corners[1].position - corners[0].position,
+                      corners[2].position - corners[0].position);
+    float size2 = max(dot(area, area), 1e-30);
+    vec2 uv = vec2(0.0);
+    for (int i = 0; i < 3; ++i) {
+        vec3 across = cross(corners[(i + 1) % 3].position - place,
+                            corners[(i + 2) % 3].position - place);
+        uv += dot(across, area) / size2 * vec2(corners[i].u, corners[i].v);
+    }
     vec2 uvSide = vec2(corners[1].u - corners[0].u, corners[1].v - corners[0].v);
     float side = max(distance(corners[1].position, corners[0].position), 1e-12);
-    float width = pixelFootprint(pathMeters) * length(uvSide) / side;
+    float width = pixelFootprint(seen.pathMeters) * length(uvSide) / side;
     return albedoOver(seen.material - 1u, uv, vec2(width, 0.0), vec2(0.0, width));
 }
 
-// Whether anything lies between the hit and the light, `toLight` away, unit, `reach` m far.
-bool isShadowed(Seen seen, vec3 toLight, float reach) {
+bool isShadowed(Seen seen, int light, vec3 toLight) {
+    bool isSun = uint(lights[light].positionVs.w) == kLightDirectional;
+    float reach = isSun ? 3.0e38 : length(lights[light].positionVs.xyz - seen.positionVs);
     BvhRay ray = bvhRay(seen.positionVs, toLight);
     raysHits = kHitsBlockers;
     startTriangle = seen.hit.triangle;
@@ -101,56 +101,11 @@ bool isShadowed(Seen seen, vec3 toLight, float reach) {
     return isBlocked(ray, reach);
 }
 
-// Of a receiver that the picture does not show, back along the ray.
-vec3 radianceOfHidden(Seen seen, vec3 direction, float pathMeters) {
-    bool isFront = dot(direction, seen.geometric) < 0.0;
-    // A sheet is lit on the side that is looked at.
-    float side = !isFront && isOpen(seen.material - 1u) ? -1.0 : 1.0;
-    vec3 normal = side * seen.shading;
-    vec3 albedo = albedoOfSeen(seen, pathMeters);
-    vec4 lobe = materials[seen.material - 1u].specular;
-    vec3 sum = (albedo + lobe.rgb) * (1.0 / 3.14159265) * view.ambient.rgb;
-    if (isFront) sum += materials[seen.material - 1u].emission.rgb;
-    for (int i = 0; i < lightCount; ++i) {
-        LightData light = lights[i];
-        vec3 toLight = -lightDirection(light, seen.positionVs);
-        float cosine = dot(normal, toLight);
-        if (cosine <= 0.0 || side * dot(seen.geometric, toLight) <= 0.0) continue;
-        bool isSun = uint(light.positionVs.w) == kLightDirectional;
-        float reach = isSun ? 3.0e38 : length(light.positionVs.xyz - seen.positionVs);
-        if (isShadowed(seen, toLight, reach)) continue;
-        sum += lightIrradiance(light, seen.positionVs) * cosine *
-               receiverBrdf(albedo, lobe.rgb, lobe.w, normal, toLight, -direction);
-    }
-    return sum;
-}
-
-ivec2 pixelNow = ivec2(0);
-
-// What the receiver sends back along the path's last piece.
-vec3 radianceOfReceiver(Seen seen, EyePath path) {
-    vec3 direction = path.at.direction;
-    vec3 there = seen.positionVs;
-    ivec2 texel = ivec2(floor(pixelOf(there)));
-    ivec2 last = ivec2(view.sizePixels.xy) - 1;
-    bool isOnScreen = there.z < -view.frustum.z && all(greaterThanEqual(texel, ivec2(0))) &&
-                      all(lessThanEqual(texel, last));
-    // The picture shows one side of a surface.
-    bool isSameSide = dot(direction, seen.geometric) < 0.0 == dot(there, seen.geometric) < 0.0;
-    vec3 shown;
-    if (isOnScreen && isSameSide && radianceAround(there, seen.geometric, shown)) {
-#ifdef GLOSSY_RECEIVERS
-        shown += lobeRadiance(there, direction, texel, seen.shading, seen.material);
-#endif
-        return max(shown, vec3(0.0));
-    }
-    // Under water nearly all light is caustic, which hidden receivers lack: it is taken to be that of
-    // the receiver straight beyond the surface, as by the searches on the screen (scene_look.glsl).
+// View depth where the path's last piece begins, m, where that lies under water.
+float depthUnderWater(EyePath path) {
     uint medium = innerMedium(path.at.media);
     bool isUnderWater = medium != 0u && isOpen(medium - 1u) && path.refractions > 0;
-    if (isUnderWater && texelFetch(receiver, pixelNow, 0).x > -path.at.origin.z)
-        return texelFetch(receiverRadiance, pixelNow, 0).rgb;
-    return radianceOfHidden(seen, direction, path.meters);
+    return isUnderWater ? -path.at.origin.z : kNotUnderWater;
 }
 
 // What is seen in the end, times what the path leaves of it.
@@ -163,7 +118,7 @@ vec3 radianceAtEnd(EyePath path, Seen seen) {
     float ratio = indexAtEye / mediumIndex(medium);
     vec3 sum = seen.material == 0u
                    ? environmentRadiance(path.at.direction) * mediumTransmittance(medium, 1e30)
-                   : radianceOfReceiver(seen, path);
+                   : radianceOfReceiver(seen, path.at.direction, depthUnderWater(path));
     return path.at.share * ratio * ratio * sum;
 }
 
@@ -221,7 +176,10 @@ Seen follow(inout EyePath path) {
         uint kind = materialKind(seen.material - 1u);
         path.at.share *= mediumTransmittance(innerMedium(path.at.media), seen.hit.distance);
         path.meters += seen.hit.distance;
-        if (isReceiver(kind)) return seen;
+        if (isReceiver(kind)) {
+            seen.pathMeters = path.meters;
+            return seen;
+        }
         path.at.origin = seen.positionVs;
         vec3 normal = bendingNormal(path.at.direction, seen.shading, seen.geometric, seen.material,
                                     path.at.media);
@@ -238,18 +196,15 @@ Seen follow(inout EyePath path) {
     }
 }
 
-void storeExit(ivec2 pixel, EyePath path) {
-#ifndef BESIDE_MIDDLE
+void storeExitOf(EyePath path) {
     // At a silhouette the ray may pass what the picture has there.
     int hits = path.interfaces + path.at.mirrors;
-    imageStore(viewExitPosition, pixel, vec4(path.at.origin, float(hits)));
-    imageStore(viewExitDirection, pixel,
-               hits > 0 ? vec4(path.at.direction, path.ending) : vec4(0.0));
-#endif
+    storeExit(pixelNow, vec4(path.at.origin, float(hits)),
+              hits > 0 ? vec4(path.at.direction, path.ending) : vec4(0.0));
 }
 
-vec3 radianceThrough(ivec2 pixel) {
-    vec3 viewing = viewRay(positionOfSample(pixel));
+vec3 radianceThroughPixel() {
+    vec3 viewing = viewRay(positionOfSample(pixelNow));
     waiting[0] = EyePath(MirrorPath(viewing * view.frustum.z, normalize(viewing), vec3(1.0), 0u, 0),
                          true, 0, 0, 0, length(viewing * view.frustum.z), kPathExited);
     waitingCount = 1;
@@ -258,7 +213,7 @@ vec3 radianceThrough(ivec2 pixel) {
     while (waitingCount > 0) {
         EyePath path = waiting[--waitingCount];
         Seen seen = follow(path);
-        if (isFirst) storeExit(pixel, path);
+        if (isFirst) storeExitOf(path);
         isFirst = false;
         sum += radianceAtEnd(path, seen);
     }
@@ -268,12 +223,6 @@ vec3 radianceThrough(ivec2 pixel) {
 void main() {
     uint index = threadNumber();
     if (index >= lookedThrough.count) return;
-    ivec2 pixel = listedPixel(index);
-    pixelNow = pixel;
-    vec4 radiance = vec4(radianceThrough(pixel), 1.0);
-    weigh(radiance);
-#ifdef BESIDE_MIDDLE
-    radiance += imageLoad(viewRadiance, pixel);
-#endif
-    imageStore(viewRadiance, pixel, radiance);
+    pixelNow = listedPixel(index);
+    storeRadiance(pixelNow, vec4(radianceThroughPixel(), 1.0));
 }

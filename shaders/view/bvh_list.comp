@@ -2,16 +2,9 @@
 // view.bvh: the pixels that have to be looked through; the others see what lies straight ahead. One
 // thread a pixel. A device that runs all threads of a group through the longest of their ways then
 // traces rays for those only that have one.
-#include "include/views/view_sample.glsl"
 #include "view/bvh_pixels.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-
-layout(rgba32f) uniform image2D viewRadiance;
-#ifndef BESIDE_MIDDLE
-layout(rgba32f) writeonly uniform image2D viewExitPosition;
-layout(rgba32f) writeonly uniform image2D viewExitDirection;
-#endif
 
 shared uint listedInGroup;
 shared uint firstOfGroup;
@@ -25,15 +18,8 @@ ivec2 pixelOfThread() {
 }
 
 void seeStraight(ivec2 pixel) {
-    vec4 radiance = radianceStraight(pixel);
-    weigh(radiance);
-#ifdef BESIDE_MIDDLE
-    radiance += imageLoad(viewRadiance, pixel);
-#else
-    imageStore(viewExitPosition, pixel, vec4(0.0));
-    imageStore(viewExitDirection, pixel, vec4(0.0));
-#endif
-    imageStore(viewRadiance, pixel, radiance);
+    storeExit(pixel, vec4(0.0), vec4(0.0));
+    storeRadiance(pixel, radianceStraight(pixel));
 }
 
 void main() {

@@ -193,18 +193,16 @@ void lookBySamples(const FrameInputs& inputs, gl::PassContext& context, const Vi
     const ViewSamples& samples = pass.samples;
     const float share = 1.0f / static_cast<float>(samples.count);
     const auto lookAt = [&](float shareOfRay, const glm::vec2& offset) {
-        const bool isMiddle = offset == glm::vec2(0.0f);
-        look(
-            [&](gl::Command& command) {
-                if (samples.count > 1)
-                    command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
-                if (isMiddle) return;
-                command.define("BESIDE_MIDDLE")
-                    .set("sampleOffset", offset)
-                    .texture("sight", samples.sight)
-                    .texture("sightSurface", samples.surface);
-            },
-            isMiddle);
+        PixelSample sample{offset, {}};
+        sample.tell = [&, isMiddle = sample.isMiddle()](gl::Command& command) {
+            if (samples.count > 1) command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
+            if (isMiddle) return;
+            command.define("BESIDE_MIDDLE")
+                .set("sampleOffset", offset)
+                .texture("sight", samples.sight)
+                .texture("sightSurface", samples.surface);
+        };
+        look(sample);
     };
     std::vector<glm::vec2> sampleOffsets = samplesOfPixel(samples.count);
     const bool isMiddleOne = std::erase(sampleOffsets, glm::vec2(0.0f)) > 0;
@@ -218,14 +216,14 @@ void lookBySamples(const FrameInputs& inputs, gl::PassContext& context, const Vi
 void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
                   const std::string& shader, const std::vector<Tell>& tells) {
     // First pixels that need no look, then the others, by the marks that the first have left.
-    lookBySamples(inputs, context, pass, [&](const Tell& tellSample, bool isMiddle) {
+    lookBySamples(inputs, context, pass, [&](const PixelSample& sample) {
         for (std::size_t draw = 0; draw <= tells.size(); ++draw) {
             const bool looks = draw > 0;
             gl::Command command = context.fullscreen(looks ? shader : "eye_rays/straight.frag");
             if (looks) tells[draw - 1](command);
-            tellSample(command);
+            sample.tell(command);
             command.target(pass.seen.radiance);
-            if (isMiddle) {
+            if (sample.isMiddle()) {
                 command.target(pass.seen.exitPosition).target(pass.seen.exitDirection);
             } else {
                 command.blend(gl::Blend::add);

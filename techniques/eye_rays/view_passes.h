@@ -116,10 +116,15 @@ struct ViewPass {
 
 // Tells a shader what it asks for.
 using Tell = std::function<void(gl::Command&)>;
-// Calls `look` once for each sample of a pixel: `tell` says which to a shader that includes
-// include/views/first_surface.glsl; the middle of the pixels comes first, whose ray is followed for
-// its exit where it is none of the samples.
-using LookOnce = std::function<void(const Tell& tell, bool isMiddle)>;
+// A ray through each pixel.
+struct PixelSample {
+    glm::vec2 offset{0.0f};  // px, from its middle
+    Tell tell;               // of it, a shader that includes include/views/first_surface.glsl
+    [[nodiscard]] bool isMiddle() const { return offset == glm::vec2(0.0f); }
+};
+// Calls `look` once for each sample of a pixel; the middle of the pixels comes first, whose ray is
+// followed for its exit where it is none of the samples.
+using LookOnce = std::function<void(const PixelSample& sample)>;
 void lookBySamples(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
                    const LookOnce& look);
 // Draws all that such a pass gives: `shader` once for each sample of a pixel that meets a specular

@@ -7,11 +7,17 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "framework/gl/executor.h"
 #include "framework/transport/edges.h"
 #include "techniques/thread_lists/thread_list.h"
 #include "techniques/tracing/bvh_rays.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "techniques/reconstruct/processor_edges.h"
+#include "techniques/tracing/processor_scene.h"
+#endif
 
 namespace kaustik {
 namespace {
@@ -22,12 +28,60 @@ constexpr int kPixelsPerEdge = 4;
 struct EdgePass {
     EdgeSamples edges;
     ThreadList pixels;
+    graph::Buffer<SeenAtPlace> seen;  // invalid where the device looks
+};
+
+// Looks at the places of pixels at an edge, on the device or the processor.
+class PlacesFinder {
+  public:
+    PlacesFinder(FrameBuilder& frame, const Geometry& geometry) {
+#ifdef KAUSTIK_HAS_EMBREE
+        if (frame.inputs().isOnProcessor) {
+            processor_ = processorScene(frame, geometry);
+            return;
+        }
+#endif
+        device_ = bvhOfFrame(frame, geometry);
+    }
+    void declare(graph::PassSetup& setup, EdgePass& pass, std::size_t capacity) const {
+#ifdef KAUSTIK_HAS_EMBREE
+        if (processor_.scene) {
+            processor_.read(setup);
+            pass.seen = setup.createBuffer<SeenAtPlace>("edges.seen_at_places",
+                                                        transport::kEdgeSamples * capacity);
+            return;
+        }
+#endif
+        device_.read(setup);
+    }
+    // For a command that looks at the pixels of the list.
+    void bindTo(gl::Command& command, const EdgePass& pass, const FrameInputs& inputs,
+                gl::PassContext& context) const {
+        if (!pass.seen.valid()) return device_.bindTo(command, inputs);
+        command.define("SEEN_BY_PROCESSOR").texels("seenAtPlaces", pass.seen, Format::rgba32f);
+#ifdef KAUSTIK_HAS_EMBREE
+        if (context.isListing()) return;
+        const auto list = context.buffer(pass.pixels.buffer()).read<std::uint32_t>();
+        const std::span<const std::uint32_t> pixels = ThreadList::listedIn(list);
+        const auto seen = seenAtPlaces(*processor_.scene, inputs.view, pixels);
+        if (seen.empty()) return;
+        context.buffer(pass.seen).upload(0, seen.size() * sizeof(SeenAtPlace), seen.data());
+#else
+        static_cast<void>(context);
+#endif
+    }
+
+  private:
+    BvhOfFrame device_;
+#ifdef KAUSTIK_HAS_EMBREE
+    ProcessorScene processor_;
+#endif
 };
 
 EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
                             const ReceiverView& eye) {
     const FrameBuilder::PassScope shared(frame);
-    const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
+    const PlacesFinder finder(frame, geometry);
     const int pixels = frame.width() * frame.height();
     constexpr int kPixelsOfRow = transport::kEdgePixelsOfRow;
     const int rows = std::max((pixels / kPixelsPerEdge + kPixelsOfRow - 1) / kPixelsOfRow, 1);
@@ -37,7 +91,7 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
         [&](graph::PassSetup& setup, EdgePass& data) {
             setup.sample("receiver", eye.receiver);
             setup.sample("receiverSurface", eye.receiverSurface);
-            bvh.read(setup);
+            finder.declare(setup, data, static_cast<std::size_t>(capacity));
             data.edges.receiver = setup.image(
                 "edgeReceiver",
                 setup.create<EdgeReceiver>("edges.receiver", frame.width(), frame.height()));
@@ -48,14 +102,15 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
             data.pixels = ThreadList::create(setup, "EdgePixels", "edges.pixels",
                                              static_cast<std::size_t>(capacity));
         },
-        [&inputs = frame.inputs(), bvh, capacity](const EdgePass& pass, gl::PassContext& context) {
+        [&inputs = frame.inputs(), finder, capacity](const EdgePass& pass,
+                                                     gl::PassContext& context) {
             context.texture(pass.edges.samples).clear({0, 0, 0, 0});
             pass.pixels.clear(context);
             context.compute("reconstruct/edges_list.comp")
                 .set("edgeCapacity", static_cast<unsigned>(capacity))
                 .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
             gl::Command command = context.compute("reconstruct/edges.comp");
-            bvh.bindTo(command, inputs);
+            finder.bindTo(command, pass, inputs, context);
             command.set("edgeCapacity", static_cast<unsigned>(capacity));
             pass.pixels.close(context);
             pass.pixels.dispatchOver(std::move(command));

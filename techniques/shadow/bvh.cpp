@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// shadow.bvh: from every receiver pixel a ray back to each light, traced exactly on the device,
-// however photons are traced. In: eye buffer; out: visibility, 0 or 1 a pixel and light.
+// shadow.bvh: from every receiver pixel a ray back to each light, traced exactly, however photons
+// are traced: on the device, or where that is the processor by Embree. In: eye buffer; out:
+// visibility, 0 or 1 a pixel and light.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/tracing/bvh_rays.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "techniques/shadow/processor_shadows.h"
+#endif
 
 namespace kaustik {
 namespace {
@@ -16,6 +20,9 @@ Shadows traceExactShadowRays(FrameBuilder& frame, const params::NoParams&, Geome
         frame.skip("shadow.bvh", "the scene has no light");
         return {};
     }
+#ifdef KAUSTIK_HAS_EMBREE
+    if (frame.inputs().isOnProcessor) return shadowsByProcessor(frame, "shadow.bvh", geometry, eye);
+#endif
     const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
     return frame.pass<Shadows>(
         "shadow.bvh",
@@ -46,7 +53,7 @@ void registerShadowBvh(Registry& registry) {
     registry.node<ShadowStage>(
         "bvh",
         {"Traces a ray from every receiver to the light exactly, through the hierarchy over all "
-         "triangles.",
+         "triangles, on the device or, where that is the processor, by Embree.",
          "", "A shadow is there or not, once a pixel. The hierarchy is that of trace.bvh."},
         &traceExactShadowRays);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/thread_lists/thread_list.h"
 
+#include <algorithm>
+
 #include "framework/gl/executor.h"
 
 namespace kaustik {
@@ -36,6 +38,11 @@ void ThreadList::close(gl::PassContext& context) const {
 
 void ThreadList::dispatchOver(gl::Command command) const {
     command.dispatchIndirect(list_, offsetof(ThreadListHeader, groupsX));
+}
+
+std::span<const std::uint32_t> ThreadList::listedIn(std::span<const std::uint32_t> buffer) {
+    const std::span<const std::uint32_t> all = buffer.subspan(kHeaderWords);
+    return all.first(std::min<std::size_t>(buffer[0], all.size()));
 }
 
 }  // namespace kaustik

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "framework/gl/command.h"
@@ -31,6 +32,9 @@ class ThreadList {
 
     // What holds it, to be read back: its header first.
     [[nodiscard]] const graph::Buffer<std::uint32_t>& buffer() const { return list_; }
+    // The numbers in what was read.
+    [[nodiscard]] static std::span<const std::uint32_t> listedIn(
+        std::span<const std::uint32_t> buffer);
 
   private:
     void countGroups(gl::PassContext& context, int isListed) const;

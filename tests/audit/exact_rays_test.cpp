@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Rays through the hierarchy on the device (trace.bvh, view.bvh, shadow.bvh) next to
-// Embree's, in every scene that the project ships: they differ by ties and roundings alone.
+// Rays through the hierarchy on the device (trace.bvh, view.bvh, shadow.bvh), and what the
+// processor traces where it is the device, next to the reference's, in every scene that the project
+// ships: they differ by ties and roundings alone.
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 #include "framework/audit/hit_audit.h"
 #include "framework/audit/shadow_audit.h"
@@ -17,13 +20,17 @@ constexpr int kHeight = 120;
 const numerics::Settings kExact = {
     {"emit.photons", "128x128"}, {"trace", "bvh"}, {"view", "bvh"}, {"shadow", "bvh"}};
 
-class ExactRays : public testing::TestWithParam<std::string> {
+// A scene, and whether the device is taken for a GPU.
+using SceneAndDevice = std::tuple<std::string, bool>;
+
+class ExactRays : public testing::TestWithParam<SceneAndDevice> {
   protected:
     std::unique_ptr<Renderer> render(Purpose purpose) {
-        return rendered(registry_, scene_, kWidth, kHeight, purpose, kExact);
+        return rendered(registry_, scene_, kWidth, kHeight, purpose, kExact,
+                        std::get<1>(GetParam()));
     }
     Registry registry_ = registerAll();
-    scene::Scene scene_ = scene::loadScene(GetParam());
+    scene::Scene scene_ = scene::loadScene(std::get<0>(GetParam()));
     reference::EmbreeScene embree_{scene_};
 };
 
@@ -77,7 +84,7 @@ TEST_P(ExactEyeRays, FindWhatTheEyeSees) {
     EXPECT_EQ(audit.notANumber, 0u);
     const double pixels = static_cast<double>(audit.pixels);
     // Light that goes about within the bunny doubles its roundings at each of many interfaces.
-    const bool isChaotic = GetParam() == "glass-bunny";
+    const bool isChaotic = std::get<0>(GetParam()) == "glass-bunny";
     EXPECT_GT(static_cast<double>(audit.interfacesRight) / pixels, isChaotic ? 0.96 : 0.995);
     EXPECT_LT(static_cast<double>(audit.lost) / pixels, 0.002);
     ASSERT_FALSE(audit.sameInterfaces.directionDegrees.empty());
@@ -85,8 +92,16 @@ TEST_P(ExactEyeRays, FindWhatTheEyeSees) {
     EXPECT_LT(degrees[degrees.size() / 2], 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, ExactRays, testing::ValuesIn(shippedScenes()), nameOfScene);
-INSTANTIATE_TEST_SUITE_P(Every, ExactEyeRays, testing::ValuesIn(scenesWithViews()), nameOfScene);
+std::string nameOf(const testing::TestParamInfo<SceneAndDevice>& info) {
+    const auto& [scene, asOnGpu] = info.param;
+    return nameOfScene({scene, info.index}) + (asOnGpu ? "_on_a_gpu" : "");
+}
+INSTANTIATE_TEST_SUITE_P(Every, ExactRays,
+                         testing::Combine(testing::ValuesIn(shippedScenes()), testing::Bool()),
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Every, ExactEyeRays,
+                         testing::Combine(testing::ValuesIn(scenesWithViews()), testing::Bool()),
+                         nameOf);
 
 }  // namespace
 }  // namespace kaustik::test

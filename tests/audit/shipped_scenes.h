@@ -41,11 +41,14 @@ inline std::vector<std::string> scenesWithViews() {
 }
 
 // A frame of the screen's own technique (exact_rays_test.cpp has the default), rendered for a
-// purpose. `registry` and `scene` must outlive it.
+// purpose; `asOnGpu`: as the device would do that is none of the processor's. `registry` and
+// `scene` must outlive it.
 inline std::unique_ptr<Renderer> rendered(const Registry& registry, const scene::Scene& scene,
                                           int width, int height, Purpose purpose,
-                                          const numerics::Settings& more = {}) {
+                                          const numerics::Settings& more = {},
+                                          bool asOnGpu = false) {
     RenderSettings settings;
+    settings.asOnGpu = asOnGpu;
     settings.technique = registry.findTechnique("screen_space_photons");
     settings.params = registry.makeParams(settings.technique);
     for (const auto& [name, value] : more)

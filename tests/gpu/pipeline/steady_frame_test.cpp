@@ -99,6 +99,8 @@ class SteadyFrames : public testing::Test {
         RenderSettings settings =
             run::makeSettings({.technique = technique, .assignments = assignments}, registry_);
         run::setSize(settings, {48, 36});
+        // Where the device is the processor it traces, for which it reads what there is to trace.
+        settings.asOnGpu = true;
         return settings;
     }
     Registry registry_ = registerAll();
