@@ -21,7 +21,8 @@ import sys
 COLUMNS = ["scene", "trace", "view", "shadow", "size", "emit.photons", "relMSE", "wrong hits", "view relMSE", "wrong shadows", "ms", "trace, ms",
            "view, ms", "shadow, ms", "layers, ms", "reconstruct, ms", "geometry, ms", "device", "version", "date", "other_processors"]
 WAYS = {("hierarchical", "refraction", "map"): "fragments", ("hierarchical_compute", "refraction", "map"): "compute",
-        ("raytraced", "refraction", "map"): "processor", ("bvh", "refraction", "map"): "exact photons", ("bvh", "bvh", "bvh"): "all exact"}
+        ("raytraced", "refraction", "map"): "processor", ("bvh", "refraction", "map"): "exact photons", ("bvh", "bvh", "bvh"): "all exact",
+        ("raytraced", "bvh", "bvh"): "all by the processor"}
 
 
 def way_of(row: dict) -> str | None:

@@ -6,6 +6,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/tracing/bvh_rays.h"
+#include "techniques/tracing/rays_by.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "techniques/shadow/processor_shadows.h"
 #endif
@@ -13,7 +14,15 @@
 namespace kaustik {
 namespace {
 
-Shadows traceExactShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry geometry,
+struct BvhShadowParams {
+    RaysBy rays = RaysBy::automatic;
+    template <class R>
+    void reflect(R& r) {
+        reflectRaysBy(r, rays);
+    }
+};
+
+Shadows traceExactShadowRays(FrameBuilder& frame, const BvhShadowParams& params, Geometry geometry,
                              EyeBuffer eye, LayeredDepth) {
     const int lights = frame.needs().lights;
     if (lights == 0) {

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "framework/core/error.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "techniques/view/processor_paths.h"
 #endif
@@ -29,17 +28,11 @@ constexpr std::size_t kPixelsTogether = 32768;
 
 PathsFinder::PathsFinder(FrameBuilder& frame, const BvhViewParams& params, const Geometry& geometry)
     : endsOfPixel_(1 << params.branches), lights_(frame.needs().lights) {
+    if (!isProcessorAsked(frame, params.rays, "view.bvh.rays")) return;
 #ifdef KAUSTIK_HAS_EMBREE
-    if (params.rays == RaysBy::processor ||
-        (params.rays == RaysBy::automatic && frame.inputs().isOnProcessor)) {
-        traces_ = std::make_shared<TracesPaths>(processorScene(frame, geometry), params, lights_);
-    }
+    traces_ = std::make_shared<TracesPaths>(processorScene(frame, geometry), params, lights_);
 #else
     static_cast<void>(geometry);
-    if (params.rays == RaysBy::processor) {
-        throw ConfigError(
-            "view.bvh.rays = processor: this program is built without Embree; take device.");
-    }
 #endif
 }
 

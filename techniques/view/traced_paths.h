@@ -11,11 +11,9 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/thread_lists/thread_list.h"
+#include "techniques/tracing/rays_by.h"
 
 namespace kaustik {
-
-// Who follows them.
-enum class RaysBy : int { automatic, device, processor };
 
 struct BvhViewParams {
     int interfaces = 32;
@@ -40,10 +38,7 @@ struct BvhViewParams {
                 "At how many of the first interfaces what is reflected is followed too; 0: the "
                 "refracted ray alone",
                 "", params::range(0, 4));
-        r.choice(rays, "rays",
-                 "Who traces the rays: the device, or the processor (Embree); auto: the processor "
-                 "where the device renders on it",
-                 {"auto", "device", "processor"});
+        reflectRaysBy(r, rays);
     }
 };
 
