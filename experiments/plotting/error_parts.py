@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Where the error of each technique comes from: noise, photons, pixels, and what stays.
 
-    error_parts.py RESULTS --out DIR
+    error_parts.py RESULTS --out DIR [--keep]
 
-RESULTS is the folder of error_parts.toml. Writes DIR/parts.csv and DIR/parts.svg. The four parts add up to the relMSE of the caustic's
+RESULTS is the folder of error_parts.toml, or of some of its scenes: with --keep the others stay as DIR has them. Writes DIR/parts.csv and DIR/parts.svg. The four parts add up to the relMSE of the caustic's
 irradiance at the study's middle number of photons, net of the reference's own noise:
 
 - noise: the variance, pixel by pixel, between runs with nearly as many photons whose cells lie elsewhere. Another start of the grid would
@@ -130,6 +130,16 @@ def tabled(results: Path) -> list[dict]:
     return table
 
 
+def kept(file: Path, table: list[dict]) -> list[dict]:
+    """The lines of a table that was written before, but for those that there are anew."""
+    if not file.is_file():
+        return []
+    anew = {(line["scene"], line["technique"]) for line in table}
+    with file.open(newline="", encoding="utf-8") as stream:
+        lines = [line for line in csv.DictReader(stream) if (line["scene"], line["technique"]) not in anew]
+    return [line | {part: float(line[part]) for part in ("relMSE", *PARTS) if line[part]} for line in lines]
+
+
 def draw(table: list[dict], file: Path) -> None:
     """A row of bars a scene, a bar a technique: its parts as shares of relMSE, which stands above it."""
     done = [line for line in table if line["status"] == "done"]
@@ -159,11 +169,14 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results", type=Path)
     parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--keep", action="store_true")
     arguments = parser.parse_args()
     if not (arguments.results / "runs.csv").is_file():
         sys.exit(f"error_parts: there is no '{arguments.results / 'runs.csv'}'")
     table = tabled(arguments.results)
     arguments.out.mkdir(parents=True, exist_ok=True)
+    if arguments.keep:
+        table = sorted(table + kept(arguments.out / "parts.csv", table), key=lambda line: (line["scene"], line["technique"]))
     with (arguments.out / "parts.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
         writer.writeheader()

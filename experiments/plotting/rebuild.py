@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Runs studies and makes of them what stands in results/.
 
-    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [--only KEY=VALUE]... [STUDY...]
+    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [--missing | --only KEY=VALUE]... [STUDY...]
     rebuild.py --list
     rebuild.py --stale [--out results/runs/experiments] [STUDY...]
     rebuild.py --quick [--out DIR] [STUDY...]
@@ -10,7 +10,8 @@
 Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from
 the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many runs of a study are of
 other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --only
-those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all others. With --shard
+those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all others; with
+--missing those that the CSV has no row of (studies.md names them). With --shard
 only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
 --quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
 of results/ still work, in minutes. Ends with 1 where something does not.
@@ -29,6 +30,7 @@ import tomllib
 
 from sources import Tree
 from study import device_of
+from study_plan import missing_of
 from table import rounded, rows_of_others
 from views import PageError, printed, recorded_of, rows_of
 
@@ -198,7 +200,7 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path, keep: bool =
     elif study in DEVICE:
         call(sys.executable, "-B", PLOTTING / "device.py", "slim", results, "--csv", target)
     elif study in PARTS:
-        call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent)
+        call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent, *(["--keep"] if keep else []))
     else:
         write_slim(results / "runs.csv", target, keep)
 
@@ -252,24 +254,48 @@ def compare_with_light_tracer(kaustik: pathlib.Path) -> None:
     call(sys.executable, "-B", PLOTTING / "speed_error.py")
 
 
-def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str], studies: list[str]) -> list[str]:
+def conditions_of(run: dict) -> list[str]:
+    """What tells a run of a study from the others, for --only."""
+    texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in run.items()}
+    return [word for key, text in texts.items() for word in ("--only", f"{key}={text}")]
+
+
+def missing_parts(study: str) -> list[list[str]]:
+    """The conditions of each run that the study's CSV has no row of; of a study without a CSV, none: all runs are."""
+    target = ROOT / "results" / STUDIES[study]
+    if not target.is_file():
+        return [[]]
+    with target.open(newline="", encoding="utf-8") as stream:
+        rows = tuple(csv.DictReader(stream))
+    _, missing = missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows)
+    return [conditions_of(run) for run in missing]
+
+
+def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str] | None, studies: list[str]) -> list[str]:
+    """`only`: conditions; None: what is missing."""
     failures = []
     for study in studies:
-        part, tree, begin = ["--shard", shard] if shard else [], Tree(), time.time()
-        part += [word for condition in only for word in ("--only", condition)]
+        tree, begin = Tree(), time.time()
+        of_all = ["--shard", shard] if shard else [word for condition in only or [] for word in ("--only", condition)]
+        parts = missing_parts(study) if only is None else [of_all]
+        is_part = any(parts)
+        if not parts:
+            print(f"{study}: nothing is missing", flush=True)
+            continue
         if anew:
             forget_stale(out / study, tree)
-        try:
-            call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
-        except Failure as failure:
-            failures.append(f"{study}: {failure}")  # whose rows say why; the others count
+        for part in parts:
+            try:
+                call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
+            except Failure as failure:
+                failures.append(f"{study}: {failure}")  # whose rows say why; the others count
         if (out / study).is_dir():
             note_sources(out / study, tree, begin)
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:
-            csv_of(out / study, study, ROOT / "results" / STUDIES[study], bool(only))
-            if not only:  # of a part no whole table can be printed
+            csv_of(out / study, study, ROOT / "results" / STUDIES[study], is_part)
+            if not is_part:  # of a part no whole table can be printed
                 record(out / study, study, ROOT / "results" / STUDIES[study])
             if study == "bias":
                 call(sys.executable, "-B", PLOTTING / "bias.py", out / study, "--out", ROOT / "results/bias")
@@ -295,6 +321,7 @@ def main() -> int:
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--shard")
     parser.add_argument("--only", action="append", default=[], metavar="KEY=VALUE")
+    parser.add_argument("--missing", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--stale", action="store_true")
     parser.add_argument("--anew", action="store_true")
@@ -320,14 +347,18 @@ def main() -> int:
             out.mkdir(parents=True, exist_ok=True)
             failures = quick(kaustik, out, arguments.studies or [*STUDIES, *DEVICE])
     else:
-        if arguments.only and (len(arguments.studies) != 1 or arguments.studies[0] in PARTS | REPORTS):
+        if arguments.only and (len(arguments.studies) != 1 or arguments.studies[0] in REPORTS):
             sys.exit("rebuild: --only is of one study, whose CSV has a row a run; name it")
+        if arguments.missing and (arguments.only or arguments.shard or arguments.anew):
+            sys.exit("rebuild: --missing says by itself which runs are made: it goes with no --only, --shard or --anew")
+        if arguments.missing:
+            studies = [study for study in studies if study not in REPORTS]
         if arguments.anew and arguments.shard:
             sys.exit("rebuild: --anew with --shard would take from other shards what they have made")
         if kaustik.stat().st_mtime < Tree().newest_source():
             sys.exit(f"rebuild: '{kaustik}' is older than the sources; build it first")
         out = (arguments.out or ROOT / "results/runs/experiments").resolve()
-        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, arguments.only, studies)
+        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, None if arguments.missing else arguments.only, studies)
     for failure in failures:
         print(f"rebuild: {failure}", file=sys.stderr)
     return 1 if failures else 0

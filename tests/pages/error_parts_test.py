@@ -29,12 +29,12 @@ class ErrorParts(unittest.TestCase):
             self.rows.append({"folder": name, "status": "done", "message": "", "scene": "box", "technique": technique, "size": size,
                               "emit.photons": f"{photons}x{photons}", "version": "1"})
 
-    def parts(self) -> dict:
+    def parts(self, *more: str) -> dict:
         with (self.folder / "runs.csv").open("w", newline="") as stream:
             writer = csv.DictWriter(stream, self.rows[0].keys())
             writer.writeheader()
             writer.writerows(self.rows)
-        done = subprocess.run([sys.executable, "-B", PLOTTING / "error_parts.py", self.folder, "--out", self.folder / "out"],
+        done = subprocess.run([sys.executable, "-B", PLOTTING / "error_parts.py", self.folder, "--out", self.folder / "out", *more],
                               capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         with (self.folder / "out/parts.csv").open(newline="") as stream:
@@ -72,6 +72,16 @@ class ErrorParts(unittest.TestCase):
         self.assertAlmostEqual(float(row["noise"]), 0.01, delta=0.003)
         # Of 144 values the mean square of 0.3 is known to a sixth.
         self.assertAlmostEqual(float(row["pixels"]), 0.0, delta=0.03)
+
+    def test_what_was_known_of_others_stays_where_that_is_asked(self):
+        self.add("first", lambda count: grey(8, 6, 1.1), lambda count: grey(16, 12, 1.1))
+        self.parts()
+        self.rows.clear()
+        self.add("second", lambda count: grey(8, 6, 1.2), lambda count: grey(16, 12, 1.2))
+        table = self.parts("--keep")
+        self.check(table["first"], stays=0.01)
+        self.check(table["second"], stays=0.04)
+        self.assertEqual(set(self.parts()), {"second"})
 
     def test_a_run_that_is_missing_or_has_failed_is_said(self):
         self.add("whole", lambda count: grey(8, 6, 1.0), lambda count: grey(16, 12, 1.0))

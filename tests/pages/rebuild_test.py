@@ -55,6 +55,31 @@ class Recorded(unittest.TestCase):
         self.assertLessEqual(set(rebuild.PRINTED), set(rebuild.RUNS))
 
 
+class Missing(unittest.TestCase):
+    """What --missing runs of a study."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        for made in ("experiments", "results/refined"):
+            (self.root / made).mkdir(parents=True)
+        (self.root / "experiments/refined.toml").write_text('[permute]\nscene = ["pool", "ring"]\n"driver.dense.refine" = [1, 3]\nas_published = [true]\n')
+        self.enterContext(mock.patch.object(rebuild, "ROOT", self.root))
+
+    def test_is_each_run_that_no_row_is_of(self):
+        (self.root / "results/refined/runs.csv").write_text("scene,driver.dense.refine,as_published\npool,1,true\nring,1,true\nring,3,true\n")
+        self.assertEqual(rebuild.missing_parts("refined"), [["--only", "scene=pool", "--only", "driver.dense.refine=3", "--only", "as_published=true"]])
+
+    def test_is_nothing_of_a_study_that_is_whole(self):
+        rows = "".join(f"{scene},{refine},true\n" for scene in ("pool", "ring") for refine in (1, 3))
+        (self.root / "results/refined/runs.csv").write_text("scene,driver.dense.refine,as_published\n" + rows)
+        self.assertEqual(rebuild.missing_parts("refined"), [])
+
+    def test_is_all_of_a_study_that_was_never_run(self):
+        self.assertEqual(rebuild.missing_parts("refined"), [[]])
+
+
 ALL = """folder,hash,repeat,status,message,scene,trace,frame_ms.max,frame_ms.mean,frame_ms.median,frame_ms.stdev,photons.emitted,device,version
 1,1,1,done,,pool,lines,9,8,8,1,100,a,1
 2,2,1,done,,pool,march,9,8,8,1,200,a,1

@@ -12,6 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "experiments/plotting"))
 
 import studies  # noqa: E402
+import study_plan  # noqa: E402
 
 STUDY = """
 [base]
@@ -33,19 +34,19 @@ ROWS = tuple({"scene": scene, "technique": "march", "trace.epsilon": epsilon, "a
 
 class Studies(unittest.TestCase):
     def test_have_the_runs_that_their_files_name(self):
-        runs = studies.planned(tomllib.loads(STUDY))
+        runs = study_plan.planned(tomllib.loads(STUDY))
         self.assertEqual(len(runs), 8)
         self.assertEqual([run.get("trace.epsilon") for run in runs if run["scene"] == "pool" and "trace.epsilon" in run], [0.001, 0.01, 0.1])
-        self.assertEqual(studies.values_of({"from": 1, "to": 2, "steps": 3}), [1, 1.5, 2])
-        self.assertEqual(studies.values_of({"from": 1, "to": 7, "step": 3}), [1, 4, 7])
+        self.assertEqual(study_plan.values_of({"from": 1, "to": 2, "steps": 3}), [1, 1.5, 2])
+        self.assertEqual(study_plan.values_of({"from": 1, "to": 7, "step": 3}), [1, 4, 7])
 
     def test_of_the_tree_have_as_many_as_their_files_of_results_where_all_are_done(self):
         for study, file in (("lamps", "lamps/runs.csv"), ("defaults", "defaults.csv"), ("dispersion", "dispersion/runs.csv")):
-            count, missing = studies.missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows := studies.runs(ROOT / "results" / file))
+            count, missing = study_plan.missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows := studies.runs(ROOT / "results" / file))
             self.assertEqual((count, missing), (len(rows), []), study)
 
     def test_say_which_runs_no_row_is_of(self):
-        count, missing = studies.missing_of(tomllib.loads(STUDY), ROWS)
+        count, missing = study_plan.missing_of(tomllib.loads(STUDY), ROWS)
         self.assertEqual(count, 8)
         self.assertEqual(sorted((run["scene"], run.get("trace.epsilon", 0), run["technique"]) for run in missing),
                          [("own/ball.toml", 0.01, "march"), ("pool", 0, "lines"), ("pool", 0.1, "march")])
