@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/transport/brdf.h"
 #include "framework/transport/types.h"
 #include "tests/gpu/fixture.h"
 
@@ -43,7 +44,12 @@ type = "dielectric"
 ior = 1
 )";
 
-scene::Scene boxUnderAir() {
+// A lobe that is wide enough for every face to show it.
+const glm::dvec3 kSpecular(0.4);
+constexpr double kExponent = 3.0;
+
+// `material`: of box and floor.
+scene::Scene boxUnderAir(const std::string& material = "grey") {
     return sceneFromText(R"(
 name = "box under air"
 [camera]
@@ -51,6 +57,12 @@ position = [0.9, 1.0, 1.4]
 target = [0, 0.2, 0]
 vertical_fov_degrees = 45
 )" + kSunThroughAir + R"(
+[[material]]
+name = "glossy"
+type = "glossy"
+albedo = 0.5
+specular = 0.4
+exponent = 3
 [[object]]
 name = "sheet"
 shape = "plane"
@@ -60,14 +72,16 @@ position = [0, 2, 0]
 [[object]]
 name = "floor"
 shape = "plane"
-material = "grey"
 size = [6, 6]
+material = ")" + material +
+                         R"("
 [[object]]
 name = "box"
 shape = "box"
-material = "grey"
 size = [0.6, 0.5, 0.4]
 position = [0, 0.3, 0]
+material = ")" + material +
+                         R"("
 )");
 }
 
@@ -102,6 +116,7 @@ std::optional<BoxHit> hitBox(const glm::dvec3& origin, const glm::dvec3& directi
 struct Seen {
     int surface = -1;  // 0: floor; 1 to 3: a face of the box, by axis
     double irradiance = 0.0;
+    glm::dvec3 normal{0.0};
 };
 
 Seen seenAlong(const glm::dvec3& origin, const glm::dvec3& direction) {
@@ -111,29 +126,37 @@ Seen seenAlong(const glm::dvec3& origin, const glm::dvec3& direction) {
     if (box && box->distance < toFloor) {
         const double cosine = -glm::dot(box->normal, kDirection);
         const int face = box->normal.x != 0.0 ? 1 : box->normal.y != 0.0 ? 2 : 3;
-        return {face, kSun * std::max(cosine, 0.0)};
+        return {face, kSun * std::max(cosine, 0.0), box->normal};
     }
     const glm::dvec3 there = origin + toFloor * direction;
     if (!std::isfinite(toFloor) || std::max(std::abs(there.x), std::abs(there.z)) > 3.0) return {};
-    return {0, hitBox(there, -kDirection) ? 0.0 : -kSun * kDirection.y};
+    return {0, hitBox(there, -kDirection) ? 0.0 : -kSun * kDirection.y, {0.0, 1.0, 0.0}};
+}
+
+// What a pixel has to show: irradiance, W/m², or of what is glossy radiance, W/m²/sr.
+double shown(const Seen& seen, const glm::dvec3& direction, bool isGlossy) {
+    if (!isGlossy) return seen.irradiance;
+    return seen.irradiance * transport::receiverBrdf(glm::dvec3(0.5), kSpecular, kExponent,
+                                                     seen.normal, -kDirection, -direction)
+                                 .g;
 }
 
 struct Errors {
-    double atEdges = 0.0;  // mean, W/m²
+    double atEdges = 0.0;  // mean, of what pixels show
     double elsewhere = 0.0;
     double energy = 0.0;  // of the pixels at edges, over what it should be
     int edges = 0;
 };
 
-Errors errorsWith(const std::string& edges) {
-    const Frame frame(boxUnderAir(), kWidth, kHeight,
-                      {{"emit.photons", "512x512"}, {"reconstruct.triangles.coverage", edges}}, {},
-                      false, "exact_rays");
-    const Texels irradiance = frame.causticIrradiance();
+Errors errorsWith(const std::string& edges, bool isGlossy = false) {
+    const Frame frame(boxUnderAir(isGlossy ? "glossy" : "grey"), kWidth, kHeight,
+                      {{"emit.photons", "512x512"}, {"reconstruct.triangles.coverage", edges}},
+                      {"caustic.radiance"}, false, "exact_rays");
+    const Texels found = isGlossy ? frame.read("caustic.radiance") : frame.causticIrradiance();
     const Texels receiver = frame.read("eye.receiver");
     const glm::dvec3 eye(0.9, 1.0, 1.4);
     Errors errors;
-    double found = 0.0;
+    double sum = 0.0;
     double wanted = 0.0;
     int elsewhere = 0;
     for (int y = 1; y + 1 < kHeight; ++y) {
@@ -153,8 +176,10 @@ Errors errorsWith(const std::string& edges) {
             for (int i = 0; i < kSide * kSide; ++i) {
                 const double column = (i % kSide + 0.5) / kSide - 0.5;
                 const double row = (i / kSide + 0.5) / kSide - 0.5;
-                const Seen seen = seenAlong(eye, middle + column * right + row * up - eye);
-                mean += seen.irradiance / (kSide * kSide);
+                const glm::dvec3 direction =
+                    glm::normalize(middle + column * right + row * up - eye);
+                const Seen seen = seenAlong(eye, direction);
+                mean += shown(seen, direction, isGlossy) / (kSide * kSide);
                 ++counts[static_cast<std::size_t>(seen.surface + 1)];
                 lowest = std::min(lowest, seen.irradiance);
                 highest = std::max(highest, seen.irradiance);
@@ -162,11 +187,11 @@ Errors errorsWith(const std::string& edges) {
             const bool isOne =
                 std::any_of(counts.begin(), counts.end(), [](int n) { return n == kSide * kSide; });
             if (counts[0] > 0) continue;  // next to the floor's end
-            const double error = std::abs(static_cast<double>(irradiance.at(x, y, 0)) - mean);
+            const double error = std::abs(static_cast<double>(found.rgb(x, y).g) - mean);
             if (!isOne) {
                 ++errors.edges;
                 errors.atEdges += error;
-                found += static_cast<double>(irradiance.at(x, y, 0));
+                sum += static_cast<double>(found.rgb(x, y).g);
                 wanted += mean;
             } else if (highest - lowest < 1e-6) {
                 ++elsewhere;
@@ -176,7 +201,7 @@ Errors errorsWith(const std::string& edges) {
     }
     errors.atEdges /= errors.edges;
     errors.elsewhere /= elsewhere;
-    errors.energy = found / wanted;
+    errors.energy = sum / wanted;
     return errors;
 }
 
@@ -188,6 +213,17 @@ TEST(TrianglesAtEdges, ShowTheMeanOfWhatIsSeenThere) {
     EXPECT_LT(samples.atEdges, 0.5 * middle.atEdges);
     EXPECT_NEAR(samples.energy, 1.0, 0.02);
     // The flux of what the edge's pixels did not show was on the pixels next to them.
+    EXPECT_LT(samples.elsewhere, 0.5 * middle.elsewhere);
+}
+
+// Each of a pixel's parts with the lobe of its own face, which the sun and the eye meet alike
+// there.
+TEST(TrianglesAtEdges, ShowTheMeanOfGlossyReceiversToo) {
+    const Errors middle = errorsWith("middle", true);
+    const Errors samples = errorsWith("samples", true);
+    ASSERT_GT(samples.edges, 100);
+    EXPECT_LT(samples.atEdges, 0.5 * middle.atEdges);
+    EXPECT_NEAR(samples.energy, 1.0, 0.02);
     EXPECT_LT(samples.elsewhere, 0.5 * middle.elsewhere);
 }
 
