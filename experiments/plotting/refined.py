@@ -43,7 +43,7 @@ def table(file: pathlib.Path) -> str:
         for row in csv.DictReader(stream):
             scenes[row["scene"]][row["emit.photons"], int(row["driver.dense.refine"])] = row
     refinements = sorted({refine for rows in scenes.values() for _, refine in rows if refine > 1})
-    lines = ["| scene | photons | plain: relMSE; ms | " + " | ".join(f"{refine}: relMSE; photons saved; time saved" for refine in refinements) + " |",
+    lines = ["| scene | photons | plain: relMSE; ms | " + " | ".join(f"{refine}: relMSE; fewer photons; sooner" for refine in refinements) + " |",
              "|" + " --- |" * (3 + len(refinements))]
     for scene, rows in sorted(scenes.items()):
         plain = [row for (_, refine), row in rows.items() if refine == 1 and net(row)]

@@ -48,6 +48,7 @@ Frame::Frame(gl::Context& context, const Registry& registry, const scene::Scene&
         render.params.set(name, value, "hard case");
     render.width = request.width;
     render.height = request.height;
+    render.asOnGpu = request.asOnGpu;
     renderer_ = std::make_unique<Renderer>(context, registry, scene, std::move(render));
     const Purpose purpose = request.recordsTraces ? Purpose::audit : Purpose::measurement;
     std::vector<std::string> kept = request.saved;

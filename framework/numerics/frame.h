@@ -53,6 +53,8 @@ struct FrameRequest {
     bool poison = false;
     // Renders for Purpose::audit: the renderer has records of all tracings.
     bool recordsTraces = false;
+    // Nothing is done by the processor that a GPU would not have done there.
+    bool asOnGpu = false;
 };
 
 class Frame {

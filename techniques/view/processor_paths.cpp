@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -54,6 +55,7 @@ class Follower {
     void followThrough(const glm::dvec2& place) {
         const auto firstEnd = static_cast<float>(found_.ends.size());
         waiting_.assign(1, pathThrough(place));
+        indexAtEye_ = 1.0;
         bool isFirst = true;
         PathsOfPixel paths;
         while (!waiting_.empty()) {
@@ -174,9 +176,16 @@ class Follower {
         }
     }
 
+    // Extinction may be infinite, for a black tint; none of it, or no length, leaves all.
     [[nodiscard]] glm::dvec3 transmittance(std::uint32_t medium, double meters) const {
-        if (medium == 0) return glm::dvec3(1.0);
-        return glm::exp(-glm::dvec3(materialOf(medium - 1).absorptionPerMeter) * meters);
+        glm::dvec3 left(1.0);
+        if (medium == 0) return left;
+        const glm::dvec3 extinction(materialOf(medium - 1).absorptionPerMeter);
+        for (int c = 0; c < 3; ++c) {
+            const double depth = extinction[c] * meters;
+            if (depth > 0.0) left[c] = std::exp(-depth);
+        }
+        return left;
     }
 
     void noteExit(const EyePath& path, PathsOfPixel& paths) const {

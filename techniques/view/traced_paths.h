@@ -42,7 +42,7 @@ struct BvhViewParams {
     }
 };
 
-// What a pixel's paths come to (three texels: shaders/view/processor_paths.glsl). The exits are
+// What a pixel's paths come to (three texels: shaders/view/processor_paths.comp). The exits are
 // those of the first one: where it left its last specular surface, view space, m.
 struct PathsOfPixel {
     glm::vec3 exitPositionVs{0.0f};

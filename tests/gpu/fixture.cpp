@@ -35,4 +35,8 @@ Frame::Frame(const scene::Scene& scene, int width, int height, const Settings& s
     : numerics::Frame(context(), registry(), scene, registry().findTechnique(technique),
                       request(width, height, settings, saved, poison)) {}
 
+Frame::Frame(const scene::Scene& scene, const numerics::FrameRequest& request,
+             const std::string& technique)
+    : numerics::Frame(context(), registry(), scene, registry().findTechnique(technique), request) {}
+
 }  // namespace kaustik::test

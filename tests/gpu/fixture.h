@@ -35,6 +35,8 @@ class Frame : public numerics::Frame {
     Frame(const scene::Scene& scene, int width, int height, const Settings& settings = {},
           const std::vector<std::string>& saved = {}, bool poison = false,
           const std::string& technique = "screen_space_photons");
+    Frame(const scene::Scene& scene, const numerics::FrameRequest& request,
+          const std::string& technique);
 };
 
 }  // namespace kaustik::test

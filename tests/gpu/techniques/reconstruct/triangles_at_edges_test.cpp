@@ -148,10 +148,22 @@ struct Errors {
     int edges = 0;
 };
 
-Errors errorsWith(const std::string& edges, bool isGlossy = false) {
-    const Frame frame(boxUnderAir(isGlossy ? "glossy" : "grey"), kWidth, kHeight,
-                      {{"emit.photons", "512x512"}, {"reconstruct.triangles.coverage", edges}},
-                      {"caustic.radiance"}, false, "exact_rays");
+struct Shown {
+    std::string edges = "samples";  // reconstruct.triangles.coverage
+    bool isGlossy = false;
+    bool asOnGpu = false;
+};
+
+Errors errorsWith(const Shown& how) {
+    const auto& [edges, isGlossy, asOnGpu] = how;
+    const Frame frame(
+        boxUnderAir(isGlossy ? "glossy" : "grey"),
+        {.width = kWidth,
+         .height = kHeight,
+         .settings = {{"emit.photons", "512x512"}, {"reconstruct.triangles.coverage", edges}},
+         .saved = {"caustic.radiance"},
+         .asOnGpu = asOnGpu},
+        "exact_rays");
     const Texels found = isGlossy ? frame.read("caustic.radiance") : frame.causticIrradiance();
     const Texels receiver = frame.read("eye.receiver");
     const glm::dvec3 eye(0.9, 1.0, 1.4);
@@ -205,9 +217,14 @@ Errors errorsWith(const std::string& edges, bool isGlossy = false) {
     return errors;
 }
 
-TEST(TrianglesAtEdges, ShowTheMeanOfWhatIsSeenThere) {
-    const Errors middle = errorsWith("middle");
-    const Errors samples = errorsWith("samples");
+// By whom the places are looked at, and whether each of a pixel's parts has the lobe of its own
+// face, which the sun and the eye meet alike there.
+class TrianglesAtEdgesOf : public testing::TestWithParam<Shown> {};
+
+TEST_P(TrianglesAtEdgesOf, ShowTheMeanOfWhatIsSeenThere) {
+    const Shown& how = GetParam();
+    const Errors middle = errorsWith({"middle", how.isGlossy, how.asOnGpu});
+    const Errors samples = errorsWith(how);
     ASSERT_GT(samples.edges, 100);
     // Four places tell a quarter of the pixel from none.
     EXPECT_LT(samples.atEdges, 0.5 * middle.atEdges);
@@ -216,16 +233,14 @@ TEST(TrianglesAtEdges, ShowTheMeanOfWhatIsSeenThere) {
     EXPECT_LT(samples.elsewhere, 0.5 * middle.elsewhere);
 }
 
-// Each of a pixel's parts with the lobe of its own face, which the sun and the eye meet alike
-// there.
-TEST(TrianglesAtEdges, ShowTheMeanOfGlossyReceiversToo) {
-    const Errors middle = errorsWith("middle", true);
-    const Errors samples = errorsWith("samples", true);
-    ASSERT_GT(samples.edges, 100);
-    EXPECT_LT(samples.atEdges, 0.5 * middle.atEdges);
-    EXPECT_NEAR(samples.energy, 1.0, 0.02);
-    EXPECT_LT(samples.elsewhere, 0.5 * middle.elsewhere);
-}
+INSTANTIATE_TEST_SUITE_P(A, TrianglesAtEdgesOf,
+                         testing::Values(Shown{"samples", false, false},
+                                         Shown{"samples", false, true},
+                                         Shown{"samples", true, false}),
+                         [](const testing::TestParamInfo<Shown>& info) {
+                             return std::string(info.param.isGlossy ? "Glossy" : "Grey") +
+                                    (info.param.asOnGpu ? "BoxAsOnAGpu" : "Box");
+                         });
 
 TEST(TrianglesAtEdges, KeepTheLedgerClosed) {
     const Frame frame(boxUnderAir(), kWidth, kHeight, {{"emit.photons", "256x256"}}, {}, false,

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // view.bvh: the same picture whether the device or the processor follows the eye's rays.
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "framework/core/error.h"
 #include "framework/numerics/cases/scene_text.h"
 #include "tests/gpu/fixture.h"
 
@@ -116,6 +115,17 @@ TEST_F(ViewBvh, SeesTheSameByEachCap) {
     }
     EXPECT_GT(between(radianceBy("processor", scene, {{"view.bvh.branches", "0"}}), all).mean,
               1e-3);
+}
+
+// An extinction that is infinite, as a black tint's is, over a length of 0 takes nothing away.
+TEST_F(ViewBvh, SeesTheSameThroughTintedGlass) {
+    scene::Scene scene =
+        numerics::makeScene(kCamera, numerics::sun({0.4, -1.0, 0.3}) + ballAndMirror());
+    for (scene::Material& material : scene.materials) {
+        if (material.name == "glass")
+            material.absorptionPerMeter = {0.5f, std::numeric_limits<float>::infinity(), 1.0f};
+    }
+    areTheSame(scene);
 }
 
 TEST_F(ViewBvh, SeesTheSameUnderWater) {
