@@ -156,12 +156,14 @@ struct Shown {
 
 Errors errorsWith(const Shown& how) {
     const auto& [edges, isGlossy, asOnGpu] = how;
+    std::vector<std::string> saved{"eye.receiver"};
+    if (isGlossy) saved.emplace_back("caustic.radiance");
     const Frame frame(
         boxUnderAir(isGlossy ? "glossy" : "grey"),
         {.width = kWidth,
          .height = kHeight,
          .settings = {{"emit.photons", "512x512"}, {"reconstruct.triangles.coverage", edges}},
-         .saved = {"caustic.radiance"},
+         .saved = saved,
          .asOnGpu = asOnGpu},
         "exact_rays");
     const Texels found = isGlossy ? frame.read("caustic.radiance") : frame.causticIrradiance();
