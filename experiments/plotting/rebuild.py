@@ -166,13 +166,13 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
 
 
 def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False) -> None:
-    """As it is, but for the constants of the errors' formulas, with five digits a number: what is committed has to be small. `keep`: with the rows that the
+    """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small. `keep`: with the rows that the
     file has of other runs."""
     csv.field_size_limit(sys.maxsize)
     with runs.open(newline="") as stream:
         reader = csv.DictReader(stream)
         rows = list(reader)
-    columns, kept = [name for name in reader.fieldnames if ".formulas." not in name], []
+    columns, kept = [name for name in reader.fieldnames if ".formulas." not in name and name not in ("folder", "hash")], []
     if keep and target.is_file():
         with target.open(newline="", encoding="utf-8") as stream:
             before = list(csv.DictReader(stream))

@@ -52,6 +52,8 @@ class PlacesFinder {
             return;
         }
 #endif
+        static_cast<void>(pass);
+        static_cast<void>(capacity);
         device_.read(setup);
     }
     // For a command that looks at the pixels of the list.

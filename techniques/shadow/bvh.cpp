@@ -29,9 +29,11 @@ Shadows traceExactShadowRays(FrameBuilder& frame, const BvhShadowParams& params,
         frame.skip("shadow.bvh", "the scene has no light");
         return {};
     }
+    if (isProcessorAsked(frame, params.rays, "shadow.bvh.rays")) {
 #ifdef KAUSTIK_HAS_EMBREE
-    if (frame.inputs().isOnProcessor) return shadowsByProcessor(frame, "shadow.bvh", geometry, eye);
+        return shadowsByProcessor(frame, "shadow.bvh", geometry, eye);
 #endif
+    }
     const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
     return frame.pass<Shadows>(
         "shadow.bvh",
