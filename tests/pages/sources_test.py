@@ -75,13 +75,13 @@ class Sources(unittest.TestCase):
 
 
 class Slim(unittest.TestCase):
-    def test_keeps_all_but_constants_and_digits_that_say_nothing(self):
+    def test_keeps_all_but_constants_folders_and_digits_that_say_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
             runs, slim = pathlib.Path(folder) / "runs.csv", pathlib.Path(folder) / "slim.csv"
-            runs.write_text('folder,error.formulas.white,balance,photons,version,device\n'
-                            '12345678901234567890,1,2.800000000012345e-08,87041893.0,0.1.0,"a, b"\n')
+            runs.write_text('folder,hash,seed,error.formulas.white,balance,photons,version,device\n'
+                            'a0,a0,12345678901234567890,1,2.800000000012345e-08,87041893.0,0.1.0,"a, b"\n')
             rebuild.write_slim(runs, slim)
-            self.assertEqual(slim.read_text(), 'folder,balance,photons,version,device\n'
+            self.assertEqual(slim.read_text(), 'seed,balance,photons,version,device\n'
                              '12345678901234567890,2.8e-08,87041893.0,0.1.0,"a, b"\n')
             rebuild.write_slim(slim, slim)
             self.assertIn("2.8e-08", slim.read_text())
