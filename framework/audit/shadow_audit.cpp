@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "framework/audit/shadow_audit.h"
 
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -14,20 +13,6 @@ namespace {
 
 // Light that grazes more is left out: there a shadow has no part in how bright the surface is.
 constexpr double kMinCosine = 0.01;
-
-// The direction to the light and how far it is; no distance for one without a place.
-struct LightPath {
-    glm::dvec3 direction;
-    double meters;
-};
-
-LightPath pathTo(const scene::Light& light, const glm::dvec3& from, const glm::dvec3& sceneCenter) {
-    if (light.kind == scene::LightKind::directional)
-        return {-light.direction, std::numeric_limits<double>::infinity()};
-    const glm::dvec3 offset = light.position - sceneCenter - from;
-    const double meters = glm::length(offset);
-    return {meters > 0.0 ? offset / meters : -light.direction, meters};
-}
 
 }  // namespace
 
@@ -50,17 +35,18 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
             const glm::dvec3 ray = glm::normalize(eye.ray(x + 0.5, y + 0.5));
             if (!scene.intersectStraight(eye.position(), ray, seen)) continue;
             if (!isReceiver(scene.scene().materials[seen.material].kind)) continue;
-            const LightPath path = pathTo(source, seen.position, scene.center());
+            const reference::WayToLight way =
+                reference::wayTo(source, seen.position, scene.center());
             const bool seesFront = glm::dot(seen.geometricNormal, ray) < 0.0;
             const double side = seesFront ? 1.0 : -1.0;
             // Both normals must face the light: what a shading normal alone turns to it is in the
             // shadow of its own triangle.
-            if (side * glm::dot(seen.geometricNormal, path.direction) < kMinCosine ||
-                side * glm::dot(seen.shadingNormal, path.direction) < kMinCosine) {
+            if (side * glm::dot(seen.geometricNormal, way.direction) < kMinCosine ||
+                side * glm::dot(seen.shadingNormal, way.direction) < kMinCosine) {
                 continue;
             }
-            const bool isBlocked = shadowRays.isBlocked(seen, side * seen.geometricNormal,
-                                                        path.direction, path.meters);
+            const bool isBlocked =
+                shadowRays.isBlocked(seen, side * seen.geometricNormal, way.direction, way.meters);
             const bool isDark = !(visibility.at(x, y, 0) > 0.5f);
             ++audit.tested;
             audit.inShadow += isBlocked ? 1 : 0;

@@ -101,6 +101,11 @@ class Buffer {
     [[nodiscard]] GLuint id() const { return object_.id(); }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
     void upload(std::size_t offset, std::size_t byteCount, const void* data) const;
+    // All of these, to its begin.
+    template <class T>
+    void upload(const std::vector<T>& values) const {
+        if (!values.empty()) upload(0, values.size() * sizeof(T), values.data());
+    }
     void clear() const;
     // Copies everything to a buffer that is at least as large.
     void copyTo(const Buffer& target) const;

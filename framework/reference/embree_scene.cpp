@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/reference/embree_filters.h"
 #include "framework/transport/normal_map.h"
 
 namespace kaustik::reference {
@@ -34,89 +35,6 @@ glm::dvec2 uvOf(const transport::VertexData& vertex) {
 
 using scene::MaterialKind;
 
-// Embree hands the context to the filters: what the ray may not hit.
-struct FilterContext {
-    QueryContext embree;
-    TriangleId start;
-    const MediaStack* media;
-    SideRule sides;
-    std::uint32_t leftSide;
-    float reachMeters;
-    const float* resolvedMeters;  // of rays to lights, by their numbers; else null
-};
-
-bool isStart(const FilterContext& context, const RTCHit& hit) {
-    return hit.primID == context.start.triangle && hit.geomID == context.start.object;
-}
-
-// For specular objects in the scene of all surfaces.
-void rejectWrongSide(const RTCFilterFunctionNArguments* arguments) {
-    const auto& context = *reinterpret_cast<const FilterContext*>(arguments->context);
-    // Nothing is rejected; of several rays at once, which no other rule is asked of.
-    if (context.sides == SideRule::any && !context.start.exists()) return;
-    const auto& info = *static_cast<const EmbreeScene::ObjectInfo*>(arguments->geometryUserPtr);
-    const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
-    const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
-    if (isStart(context, hit)) {
-        arguments->valid[0] = 0;
-        return;
-    }
-    if (context.sides == SideRule::any) return;
-    const float closing = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z;
-    const float size = std::sqrt(hit.Ng_x * hit.Ng_x + hit.Ng_y * hit.Ng_y + hit.Ng_z * hit.Ng_z);
-    const bool leaves = closing > 0.0f;
-    const bool isNear = ray.tfar * std::abs(closing) <= context.reachMeters * size;
-    bool isHit = true;
-    if (info.kind == MaterialKind::dielectric) {
-        const std::uint32_t medium = info.material + 1;
-        const bool isInner = context.media->inner() == medium;
-        isHit = leaves ? isInner || (!isNear && context.media->holds(medium)) : !isInner;
-    } else if (info.closed) {
-        isHit = !leaves;
-    } else if (isNear) {
-        isHit = context.leftSide != (leaves ? transport::kLeftOutside : transport::kLeftInside);
-    }
-    if (!isHit) arguments->valid[0] = 0;
-}
-
-// For rays to lights, of which there are several.
-void rejectOwnPlane(const FilterContext& context, const RTCFilterFunctionNArguments* arguments) {
-    const unsigned n = arguments->N;
-    for (unsigned i = 0; i < n; ++i) {
-        if (arguments->valid[i] != -1) continue;
-        const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, n, i),
-                               RTCHitN_Ng_y(arguments->hit, n, i),
-                               RTCHitN_Ng_z(arguments->hit, n, i));
-        const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, n, i),
-                                  RTCRayN_dir_y(arguments->ray, n, i),
-                                  RTCRayN_dir_z(arguments->ray, n, i));
-        const float closing = std::abs(glm::dot(normal, direction));
-        const float resolved = context.resolvedMeters[RTCRayN_id(arguments->ray, n, i)];
-        if (RTCRayN_tfar(arguments->ray, n, i) * closing <= resolved * glm::length(normal))
-            arguments->valid[i] = 0;
-    }
-}
-
-// For receivers and mirrors between a point and the eye.
-void rejectStart(const RTCFilterFunctionNArguments* arguments) {
-    const auto& context = *reinterpret_cast<const FilterContext*>(arguments->context);
-    if (context.resolvedMeters != nullptr) return rejectOwnPlane(context, arguments);
-    const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
-    if (isStart(context, hit)) arguments->valid[0] = 0;
-}
-
-FilterContext makeContext(const TriangleId& start, const MediaStack& media, SideRule sides) {
-    FilterContext context;
-    initQueryContext(context.embree);
-    context.start = start;
-    context.media = &media;
-    context.sides = sides;
-    context.leftSide = transport::kLeftNone;
-    context.reachMeters = 0.0f;
-    context.resolvedMeters = nullptr;
-    return context;
-}
-
 void setRay(RTCRay& ray, const glm::dvec3& origin, const glm::dvec3& direction) {
     ray.org_x = static_cast<float>(origin.x);
     ray.org_y = static_cast<float>(origin.y);
@@ -130,6 +48,22 @@ void setRay(RTCRay& ray, const glm::dvec3& origin, const glm::dvec3& direction) 
     ray.mask = 0xffffffffu;
     ray.id = 0;
     ray.flags = 0;
+}
+
+// The ray `i` of eight; what is nearer than `from` or farther than `to`, by the direction's length,
+// is not hit.
+void setRay(RTCRay8& rays, int i, const glm::vec3& origin, const glm::vec3& direction, float from,
+            float to) {
+    rays.org_x[i] = origin.x;
+    rays.org_y[i] = origin.y;
+    rays.org_z[i] = origin.z;
+    rays.dir_x[i] = direction.x;
+    rays.dir_y[i] = direction.y;
+    rays.dir_z[i] = direction.z;
+    rays.tnear[i] = from;
+    rays.tfar[i] = to;
+    rays.mask[i] = 0xffffffffu;
+    rays.id[i] = static_cast<unsigned>(i);
 }
 
 void checkDevice(RTCDevice device) {
@@ -428,15 +362,8 @@ std::array<TriangleId, kRaysTogether> EmbreeScene::firstTriangles(
     for (int i = 0; i < count; ++i) {
         const OpenRay& ray = rays[static_cast<std::size_t>(i)];
         valid[static_cast<std::size_t>(i)] = -1;
-        query.ray.org_x[i] = ray.origin.x;
-        query.ray.org_y[i] = ray.origin.y;
-        query.ray.org_z[i] = ray.origin.z;
-        query.ray.dir_x[i] = ray.direction.x;
-        query.ray.dir_y[i] = ray.direction.y;
-        query.ray.dir_z[i] = ray.direction.z;
-        query.ray.tnear[i] = ray.from;
-        query.ray.tfar[i] = std::numeric_limits<float>::infinity();
-        query.ray.mask[i] = 0xffffffffu;
+        setRay(query.ray, i, ray.origin, ray.direction, ray.from,
+               std::numeric_limits<float>::infinity());
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
@@ -475,15 +402,7 @@ std::uint32_t EmbreeScene::blockedRays(const std::array<RayToLight, kRaysTogethe
         const RayToLight& ray = rays[static_cast<std::size_t>(i)];
         valid[static_cast<std::size_t>(i)] = -1;
         resolved[static_cast<std::size_t>(i)] = ray.resolvedMeters;
-        query.org_x[i] = ray.origin.x;
-        query.org_y[i] = ray.origin.y;
-        query.org_z[i] = ray.origin.z;
-        query.dir_x[i] = ray.direction.x;
-        query.dir_y[i] = ray.direction.y;
-        query.dir_z[i] = ray.direction.z;
-        query.tfar[i] = ray.reachMeters;
-        query.mask[i] = 0xffffffffu;
-        query.id[i] = static_cast<unsigned>(i);
+        setRay(query, i, ray.origin, ray.direction, 0.0f, ray.reachMeters);
     }
     findAnyHits(everything_, context.embree, valid.data(), query);
     std::uint32_t blocked = 0;

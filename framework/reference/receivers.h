@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/reference/shadow_rays.h"
+#include "framework/scene/light_paths.h"
 
 namespace kaustik::reference {
 
@@ -24,11 +25,7 @@ struct Arriving {
 class Receivers {
   public:
     explicit Receivers(const EmbreeScene& scene) : scene_(scene), shadowRays_(scene) {
-        const scene::Scene& of = scene.scene();
-        isOpen_.assign(of.materials.size(), 0);
-        for (const scene::Object& object : of.objects) {
-            if (!of.meshes[object.mesh].closed) isOpen_[object.material] = 1;
-        }
+        isOpen_ = openMaterials(scene.scene());
     }
 
     // Along `direction` (unit, towards the receiver), W/m²/sr.
@@ -38,7 +35,7 @@ class Receivers {
         const Appearance& appearance = scene_.appearance();
         // A sheet is lit on the side that is looked at.
         const bool isTurned =
-            isOpen_[hit.material] != 0 && glm::dot(direction, hit.geometricNormal) > 0.0;
+            isOpen_[hit.material] && glm::dot(direction, hit.geometricNormal) > 0.0;
         const double side = isTurned ? -1.0 : 1.0;
         const glm::dvec3 shading = side * hit.shadingNormal;
         const glm::dvec3 geometric = side * hit.geometricNormal;
@@ -64,14 +61,11 @@ class Receivers {
     [[nodiscard]] Arriving fromLight(const scene::Light& light, const glm::dvec3& position) const {
         Arriving arriving;
         arriving.irradiance = glm::dvec3(light.power);
-        if (light.kind == scene::LightKind::directional) {
-            arriving.toLight = -light.direction;
-            return arriving;
-        }
-        const glm::dvec3 offset = light.position - scene_.center() - position;
-        arriving.distance = glm::length(offset);
-        if (!(arriving.distance > 0.0)) return {};
-        arriving.toLight = offset / arriving.distance;
+        const WayToLight way = wayTo(light, position, scene_.center());
+        if (!(way.meters > 0.0)) return {};
+        arriving.toLight = way.direction;
+        arriving.distance = way.meters;
+        if (light.kind == scene::LightKind::directional) return arriving;
         const double range = static_cast<double>(light.rangeMeters);
         if (range > 0.0 && arriving.distance > range) return {};
         arriving.irradiance /= arriving.distance * arriving.distance;
@@ -88,7 +82,7 @@ class Receivers {
 
     const EmbreeScene& scene_;
     ShadowRays shadowRays_;
-    std::vector<char> isOpen_;  // by material, as on the device
+    std::vector<bool> isOpen_;  // by material
 };
 
 }  // namespace kaustik::reference

@@ -199,6 +199,13 @@ bool isOpen(const Scene& scene, std::size_t material) {
     });
 }
 
+std::vector<bool> openMaterials(const Scene& scene) {
+    std::vector<bool> open;
+    for (std::size_t material = 0; material < scene.materials.size(); ++material)
+        open.push_back(isOpen(scene, material));
+    return open;
+}
+
 RepeatedHits repeatedHits(const Scene& scene) {
     const Object* sheet = nullptr;
     for (const Object& object : scene.objects) {

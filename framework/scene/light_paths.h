@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/scene/scene.h"
 
@@ -14,6 +15,8 @@ namespace kaustik::scene {
 // Whether surfaces of a material bound no volume: one object that does not is enough. A dielectric
 // with open seams has an inside all the same.
 [[nodiscard]] bool isOpen(const Scene& scene, std::size_t material);
+// The same of all materials.
+[[nodiscard]] std::vector<bool> openMaterials(const Scene& scene);
 
 // Whether light that has hit a specular surface can hit one again.
 struct RepeatedHits {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.edges: the receivers at four places of a pixel in which a surface ends, on the straight
-// rays of the eye, to which dielectrics are invisible (SEEN_BY_PROCESSOR: found there). Where all of them are on the surface that is
-// seen at its middle the pixel is at no edge, and where there are more pixels than the list holds
-// none is: which ones it holds is not the same in each frame. One thread a pixel of the list.
+// rays of the eye, to which dielectrics are invisible (SEEN_BY_PROCESSOR: it has traced them). Where
+// all of them are on the surface that is seen at its middle the pixel is at no edge, and where there
+// are more pixels than the list holds none is: which ones it holds is not the same in each frame.
+// One thread a pixel of the list.
 #include "include/surfaces/surface_data.glsl"
 #include "include/thread.glsl"
 #include "include/views/octahedral.glsl"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees in and through specular surfaces, by rays that are traced exactly: refracted
 // and totally reflected as often as it takes, both branches followed at the first interfaces.
-// Radiance changes by T or R at every interface and by 1/n² where
-// what is seen lies in a medium of index n (hard case 28a), and is absorbed on the way. One thread a
-// pixel of those that look at something specular.
+// Radiance changes by T or R at every interface and by 1/n² where what is seen lies in a medium of
+// index n (hard case 28a), and is absorbed on the way. One thread a pixel of those that look at
+// something specular.
 #include "include/surfaces/bvh.glsl"
 #include "include/surfaces/environment.glsl"
 #include "include/surfaces/side_rule.glsl"

@@ -81,12 +81,8 @@ void SightFinder::find(const FrameInputs& inputs, gl::PassContext& context, cons
 #ifdef KAUSTIK_HAS_EMBREE
     if (context.isListing()) return;
     const SightOfRows found = traces_->find(seen.view, rows, band);
-    const auto upload = [&](const auto& handle, const auto& values) {
-        if (values.empty()) return;
-        context.buffer(handle).upload(0, values.size() * sizeof(values.front()), values.data());
-    };
-    upload(sight.cells, found.cells);
-    upload(sight.parts, found.parts);
+    context.buffer(sight.cells).upload(found.cells);
+    context.buffer(sight.parts).upload(found.parts);
 #endif
 }
 

@@ -3,6 +3,8 @@
 // In: eye buffer; out: a receiver by place, view space, m and m².
 #include "techniques/reconstruct/edge_samples.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -45,7 +47,7 @@ class PlacesFinder {
     }
     void declare(graph::PassSetup& setup, EdgePass& pass, std::size_t capacity) const {
 #ifdef KAUSTIK_HAS_EMBREE
-        if (processor_.scene) {
+        if (isTraced()) {
             processor_.read(setup);
             pass.seen = setup.createBuffer<SeenAtPlace>("edges.seen_at_places",
                                                         transport::kEdgeSamples * capacity);
@@ -56,6 +58,14 @@ class PlacesFinder {
         static_cast<void>(capacity);
         device_.read(setup);
     }
+    // False: the device looks.
+    [[nodiscard]] bool isTraced() const {
+#ifdef KAUSTIK_HAS_EMBREE
+        return processor_.scene != nullptr;
+#else
+        return false;
+#endif
+    }
     // For a command that looks at the pixels of the list.
     void bindTo(gl::Command& command, const EdgePass& pass, const FrameInputs& inputs,
                 gl::PassContext& context) const {
@@ -65,9 +75,7 @@ class PlacesFinder {
         if (context.isListing()) return;
         const auto list = context.buffer(pass.pixels.buffer()).read<std::uint32_t>();
         const std::span<const std::uint32_t> pixels = ThreadList::listedIn(list);
-        const auto seen = seenAtPlaces(*processor_.scene, inputs.view, pixels);
-        if (seen.empty()) return;
-        context.buffer(pass.seen).upload(0, seen.size() * sizeof(SeenAtPlace), seen.data());
+        context.buffer(pass.seen).upload(seenAtPlaces(*processor_.scene, inputs.view, pixels));
 #else
         static_cast<void>(context);
 #endif
@@ -89,7 +97,9 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
     const int rows = std::max((pixels / kPixelsPerEdge + kPixelsOfRow - 1) / kPixelsOfRow, 1);
     const int capacity = rows * kPixelsOfRow;
     const EdgePass& made = frame.pass<EdgePass>(
-        "reconstruct.edges", "pixels see more than one surface where one ends",
+        "reconstruct.edges",
+        fmt::format("pixels see more than one surface where one ends; the {} looks there",
+                    finder.isTraced() ? "processor" : "device"),
         [&](graph::PassSetup& setup, EdgePass& data) {
             setup.sample("receiver", eye.receiver);
             setup.sample("receiverSurface", eye.receiverSurface);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What pixels show of which more than one surface is seen: a receiver at each of four places of
-// theirs, by exact rays,
-// Embree's where the device renders on the processor. The middle alone leaves a pixel's part of a
-// thin thing, or of what lies behind an edge, to its neighbours.
+// theirs, by exact rays (Embree's where the device renders on the processor). The middle alone
+// leaves a pixel's part of a thin thing, or of what lies behind an edge, to its neighbours.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -37,7 +37,8 @@ Shadows traceExactShadowRays(FrameBuilder& frame, const BvhShadowParams& params,
     const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
     return frame.pass<Shadows>(
         "shadow.bvh",
-        fmt::format("a ray from every receiver back to the light, through {} triangles",
+        fmt::format("a ray from every receiver back to the light, traced by the device through {} "
+                    "triangles",
                     frame.gpuScene().bvh().triangleCount()),
         [&](graph::PassSetup& setup, Shadows& data) {
             setup.sample("receiver", eye.receiver);

@@ -3,12 +3,14 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "framework/reference/shadow_rays.h"
 #include "framework/scene/light_paths.h"
 #include "techniques/tracing/processor_eye.h"
 #include "techniques/tracing/processor_scene.h"
@@ -24,10 +26,6 @@ struct ProcessorShadows {
 int wordsOfRow(int width) {
     return (width + 31) / 32;
 }
-
-// A light's own surface, on which the light lies, is not in its way by rounding: as a share of the
-// way (shaders/shadow/ray_to_light.glsl).
-constexpr double kOwnSurface = 1e-4;
 
 struct Receivers {
     std::vector<glm::vec4> depths;    // ReceiverTexel
@@ -73,20 +71,18 @@ class ShadowsOfLight {
         const glm::dvec3 viewing = eye_.viewing(glm::dvec2(column, row) + 0.5);
         const glm::dvec3 position = depth * viewing;
         const glm::dvec3 local = eye_.localPosition(position);
-        const bool isSun = light_.kind == scene::LightKind::directional;
-        const glm::dvec3 offset =
-            isSun ? -light_.direction : light_.position - scene_.center() - local;
-        const double distance = glm::length(offset);
-        if (!(distance > 0.0)) return false;
+        const reference::WayToLight way = reference::wayTo(light_, local, scene_.center());
+        if (!(way.meters > 0.0)) return false;
         const glm::vec4& surface = receivers_.surfaces[pixel];
         const glm::dvec3 normal(surface);
         const bool isTurned = isOpen(surface.w) && glm::dot(normal, position) > 0.0;
-        const double cosine = glm::dot(eye_.direction(offset), normal);
+        const double cosine = glm::dot(eye_.direction(way.direction), normal);
         if (!((isTurned ? -cosine : cosine) > 0.0)) return false;
         ray.origin = local;
-        ray.direction = offset / distance;
-        ray.reachMeters = isSun ? std::numeric_limits<float>::max()
-                                : static_cast<float>((1.0 - kOwnSurface) * distance);
+        ray.direction = way.direction;
+        constexpr double kFar = std::numeric_limits<float>::max();
+        ray.reachMeters = static_cast<float>(
+            std::min((1.0 - reference::ShadowRays::kOwnSurface) * way.meters, kFar));
         // A picture's depths: rasterisers move corners to the 1/256 of a pixel.
         ray.resolvedMeters = static_cast<float>(scene_.roundingMeters() +
                                                 eye_.view().footprintPerMeter() * depth / 128.0 +
@@ -151,16 +147,14 @@ Shadows shadowsByProcessor(FrameBuilder& frame, const std::string& pass, const G
                     receivers.depths = context.texture(eye.receiver).readRows(inputs.view.height);
                     receivers.surfaces =
                         context.texture(eye.receiverSurface).readRows(inputs.view.height);
-                    for (std::size_t i = 0; i < of.materials.size(); ++i)
-                        receivers.isOpen.push_back(isOpen(of, i));
+                    receivers.isOpen = openMaterials(of);
                 }
                 for (int light = 0; light < lights; ++light) {
                     if (!context.isListing()) {
                         const auto lit =
                             litPixels(*scene, inputs.view,
                                       of.lights[static_cast<std::size_t>(light)], receivers);
-                        context.buffer(data.lit).upload(0, lit.size() * sizeof(lit.front()),
-                                                        lit.data());
+                        context.buffer(data.lit).upload(lit);
                     }
                     context.compute("shadow/processor_shadows.comp")
                         .texels("litPixels", data.lit, Format::r32ui)

@@ -256,18 +256,12 @@ class Follower {
         const double side = isBack && isOpen_[hit.material] ? -1.0 : 1.0;
         for (int i = 0; i < lights_; ++i) {
             const scene::Light& light = scene_.scene().lights[static_cast<std::size_t>(i)];
-            glm::dvec3 toLight = -light.direction;
-            double meters = std::numeric_limits<double>::infinity();
-            if (light.kind != scene::LightKind::directional) {
-                toLight = light.position - scene_.center() - hit.position;
-                meters = glm::length(toLight);
-                if (!(meters > 0.0)) continue;
-                toLight /= meters;
-            }
+            const reference::WayToLight way =
+                reference::wayTo(light, hit.position, scene_.center());
             const glm::dvec3 facing = side * hit.geometricNormal;
-            if (glm::dot(facing, toLight) <= 0.0 ||
-                side * glm::dot(hit.shadingNormal, toLight) <= 0.0 ||
-                shadowRays_.isBlocked(hit, facing, toLight, meters)) {
+            if (!(way.meters > 0.0) || glm::dot(facing, way.direction) <= 0.0 ||
+                side * glm::dot(hit.shadingNormal, way.direction) <= 0.0 ||
+                shadowRays_.isBlocked(hit, facing, way.direction, way.meters)) {
                 continue;
             }
             lit[i / 32] |= std::uint32_t{1} << (i % 32);
@@ -290,11 +284,10 @@ class Follower {
 }  // namespace
 
 TracesPaths::TracesPaths(ProcessorScene scene, const BvhViewParams& caps, int lights)
-    : scene_(std::move(scene)), caps_(caps), lights_(lights) {
-    const scene::Scene& of = scene_.scene->scene();
-    for (std::size_t i = 0; i < of.materials.size(); ++i)
-        isOpen_.push_back(isOpen(of, i));
-}
+    : scene_(std::move(scene)),
+      caps_(caps),
+      lights_(lights),
+      isOpen_(openMaterials(scene_.scene->scene())) {}
 
 FoundPaths TracesPaths::find(const render::RasterView& eye, const LookedThrough& at) const {
     constexpr std::size_t kAtOnce = 64;

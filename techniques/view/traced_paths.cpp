@@ -73,13 +73,9 @@ void PathsFinder::find(const FrameInputs& inputs, gl::PassContext& context,
     for (std::size_t first = 0; first < pixels.size(); first += kPixelsTogether) {
         const auto part = pixels.subspan(first, std::min(pixels.size() - first, kPixelsTogether));
         const FoundPaths found = traces_->find(inputs.view, {part, offset, receivers});
-        const auto upload = [&](const auto& handle, const auto& values) {
-            if (values.empty()) return;
-            context.buffer(handle).upload(0, values.size() * sizeof(values.front()), values.data());
-        };
-        upload(paths.pixels, found.pixels);
-        upload(paths.ends, found.ends);
-        upload(paths.lit, found.lit);
+        context.buffer(paths.pixels).upload(found.pixels);
+        context.buffer(paths.ends).upload(found.ends);
+        context.buffer(paths.lit).upload(found.lit);
         draw(first, part.size());
     }
 #else
