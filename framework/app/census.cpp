@@ -9,6 +9,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/core/shard.h"
 
 #ifdef KAUSTIK_HAS_EMBREE
 #include <nlohmann/json.hpp>
@@ -26,6 +27,24 @@ void censusCommand(const CensusOptions&, const Registry&) {
 }
 
 #else
+
+namespace {
+
+run::SceneCensus takeOrMerge(const CensusOptions& options, const Registry& registry,
+                             scene::Scene& scene, const run::CensusRequest& request) {
+    run::Progress progress("census:");
+    const run::Watch watch{
+        [] { return !run::isInterrupted(); },
+        [&](double share, const std::string& reached) { progress.updateShare(share, reached); }};
+    if (!options.merged.empty()) {
+        return run::mergeCensus(scene, request, {options.merged.begin(), options.merged.end()},
+                                watch);
+    }
+    const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(false);
+    return run::accountFor(*context, registry, scene, request, watch);
+}
+
+}  // namespace
 
 void censusCommand(const CensusOptions& options, const Registry& registry) {
     namespace fs = std::filesystem;
@@ -45,20 +64,17 @@ void censusCommand(const CensusOptions& options, const Registry& registry) {
     request.techniques = options.techniques;
     for (const std::string& assignment : options.assignments)
         request.assignments.push_back(params::parseAssignment(assignment, "--set"));
+    const bool isShard = !options.shard.empty();
+    if (isShard && !options.merged.empty())
+        throw ConfigError("census: --shard makes a part, --merge puts parts together; take one.");
+    if (isShard && options.out.empty())
+        throw ConfigError("--shard: give --out, a folder for the part.");
+    if (isShard) request.shard = parseShard(options.shard, "--shard");
     scene::Scene scene = loadRequestedScene(options.scene, options.time);
     const fs::path folder = options.out;
     if (!options.out.empty()) run::requireWritable(folder, "--out");
-    const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(false);
     run::catchInterrupts();
-    run::SceneCensus census;
-    {
-        run::Progress progress("census:");
-        census = run::accountFor(*context, registry, scene, request,
-                                 {[] { return !run::isInterrupted(); },
-                                  [&](double share, const std::string& reached) {
-                                      progress.updateShare(share, reached);
-                                  }});
-    }
+    const run::SceneCensus census = takeOrMerge(options, registry, scene, request);
     const std::string text = jsonText(run::toJson(census), 2) + "\n";
     fmt::print("{}", options.json ? text : run::makeTable(census));
     if (options.out.empty()) return;
@@ -67,6 +83,11 @@ void censusCommand(const CensusOptions& options, const Registry& registry) {
         writeFileWhole(folder / name, content);
         if (!options.json) fmt::print("wrote {}\n", (folder / name).string());
     };
+    if (isShard) {
+        const std::string name =
+            fmt::format("census-{}-of-{}.json", request.shard->number, request.shard->count);
+        return write(name.c_str(), text);
+    }
     write("classes.csv", run::classesCsv(census));
     write("techniques.csv", run::techniquesCsv(census));
     write("census.json", text);

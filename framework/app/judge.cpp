@@ -4,11 +4,14 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/core/shard.h"
+#include "framework/image/image.h"
 #include "framework/params/assignment.h"
 #include "framework/run/judge_work.h"
 #include "framework/run/output.h"
@@ -30,6 +33,18 @@ judge::JudgeOptions optionsOf(const JudgeOptions& options) {
     return judge::optionsOf(names, [](const std::string& name) { return "--" + name; });
 }
 
+void prepare(const JudgeOptions& options, const scene::Scene& scene, run::JudgedScene request) {
+    const Shard shard = parseShard(options.shard, "--shard");
+    if (options.size.empty()) {
+        const Image theirs = readImage(options.theirs);
+        request.width = theirs.width;
+        request.height = theirs.height;
+    }
+    const run::PreparedReferences made = run::prepareReferences(scene, request, shard);
+    fmt::print("{}, {}x{}, shard {}/{}: {} of {} references are in the cache\n", scene.name,
+               request.width, request.height, shard.number, shard.count, made.own, made.all);
+}
+
 }  // namespace
 
 void judgeCommand(const JudgeOptions& options) {
@@ -45,9 +60,15 @@ void judgeCommand(const JudgeOptions& options) {
     request.seed = options.seed;
     request.classes = options.classes;
     request.causes = !options.noCauses;
+    if (options.theirs.empty() && (options.shard.empty() || options.size.empty())) {
+        throw ConfigError(
+            "judge: name the picture; only --shard with --size goes without one, which makes "
+            "references and judges nothing.");
+    }
     const judge::JudgeOptions how = optionsOf(options);
     if (!options.out.empty()) run::requireWritable(options.out, "--out");
     const scene::Scene scene = loadRequestedScene(options.scene, options.time);
+    if (!options.shard.empty()) return prepare(options, scene, std::move(request));
     const judge::Verdict verdict = run::judgeFile(scene, options.theirs, options.theirsErrorFile,
                                                   request, !options.size.empty(), how);
     const std::string json = jsonText(judge::toJson(verdict), 2) + "\n";

@@ -106,6 +106,8 @@ struct CensusOptions {
     std::string techniquePhotons = "128x128";
     std::vector<std::string> techniques;   // all where it is empty
     std::vector<std::string> assignments;  // --set name=value
+    std::string shard;                     // K/N of the techniques
+    std::vector<std::string> merged;       // files of all shards
     bool json = false;
     std::string out;  // folder; "": nothing is written
 };
@@ -176,6 +178,7 @@ struct JudgeOptions {
     long long seed = 1;
     int classes = 6;
     bool noCauses = false;
+    std::string shard;  // K/N: only this part of the references is made, and nothing is judged
     bool json = false;
     std::string out;  // folder; "": nothing is written
 };

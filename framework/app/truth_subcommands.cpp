@@ -112,6 +112,10 @@ Subcommand addCensus(CLI::App& app, const Registry& registry) {
     command.add_flag("--json", options->json, "As JSON");
     command.add_option("--out", options->out,
                        "Folder for classes.csv, techniques.csv and census.json");
+    command.add_option("--shard", options->shard,
+                       "K/N: only the K-th of N parts of the techniques, as census-K-of-N.json");
+    command.add_option("--merge", options->merged, "Puts the parts of all shards together")
+        ->expected(-1);
     addDeviceOption(command);
     return {&command, [options, &registry] {
                 putOwnMesh(options->scene, options->own);
@@ -211,8 +215,7 @@ Subcommand addJudge(CLI::App& app) {
     CLI::App& command = *app.add_subcommand(
         "judge", "Says what is wrong with another renderer's picture of a scene");
     command.add_option("scene", options->scene, kSceneHelp)->required();
-    command.add_option("theirs", options->theirs, "The picture, .exr or .pfm in linear light")
-        ->required();
+    command.add_option("theirs", options->theirs, "The picture, .exr or .pfm in linear light");
     addOwnMeshOptions(command, options->own);
     command.add_flag("--caustic-only", options->causticOnly,
                      "It has no direct light; without either it is found out");
@@ -243,6 +246,9 @@ Subcommand addJudge(CLI::App& app) {
         ->capture_default_str();
     command.add_flag("--no-causes", options->noCauses,
                      "Only classes: no references of what else may be wrong");
+    command.add_option("--shard", options->shard,
+                       "K/N: only makes the K-th of N parts of the references, for the cache that "
+                       "judging takes them from; needs --size or the picture");
     command.add_flag("--json", options->json, "As JSON");
     command.add_option("--out", options->out,
                        "Folder for judge.json, judge.txt, where.png and residual.exr");

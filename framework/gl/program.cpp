@@ -279,7 +279,8 @@ void Program::finish() {
 }
 
 bool Program::declares(const std::string& name) const {
-    return words_.contains(name.substr(0, name.find_first_of("[.")));
+    const std::size_t end = name.find_first_of("[.");  // of few names: most are not copied
+    return words_.contains(end == std::string::npos ? name : name.substr(0, end));
 }
 
 void Program::requireDeclared(const std::string& name, const char* kind) const {

@@ -34,6 +34,7 @@ struct FrameInputs {
     const render::ViewInstances& instances;         // as the eye sees them
     const std::uint64_t& seed;                      // of whatever a node draws at random
     const std::shared_ptr<const TileFrame>& tiles;  // null where there are none
+    const float& ledgerQuantumWatts;                // ledgerQuantum() of the scene
     // The view has so many pixels a side of each of the picture's (eye.samples).
     int samplesPerSide = 1;
     // The device is the processor: what runs there in place of a shader takes the same cores.

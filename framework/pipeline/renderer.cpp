@@ -134,7 +134,8 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       lights_(makeLights(scene, view_)),
       bands_(makeBands(scene)),
       instances_(gpuScene_.makeInstances(view_.worldToView)),
-      needs_(sceneNeeds(scene)),
+      shapes_(scene),
+      needs_(sceneNeeds(shapes_)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
       inputs_{registry_,
               settings_.params,
@@ -144,6 +145,7 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
               instances_,
               settings_.seed,
               settings_.tiles,
+              ledgerQuantumWatts_,
               samplesPerSideOf(settings_),
               context.info().isSoftware && !settings_.asOnGpu,
               &ofScene_},
@@ -184,7 +186,7 @@ void Renderer::update(RenderSettings settings) {
     bands_ = makeBands(scene_);
     instances_ = gpuScene_.makeInstances(view_.worldToView);
     const int measuredDepthComplexity = needs_.measuredDepthComplexity;
-    needs_ = sceneNeeds(scene_);
+    needs_ = sceneNeeds(shapes_);
     needs_.measuredDepthComplexity = measuredDepthComplexity;
     ledgerQuantumWatts_ = ledgerQuantum(scene_);
     bindToAll(Purpose::measurement);

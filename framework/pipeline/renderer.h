@@ -150,6 +150,7 @@ class Renderer {
     gl::Buffer lights_;
     gl::Buffer bands_;
     render::ViewInstances instances_;
+    scene::SceneShapes shapes_;
     scene::SceneNeeds needs_;
     float ledgerQuantumWatts_;
     std::map<std::string, std::shared_ptr<void>> ofScene_;

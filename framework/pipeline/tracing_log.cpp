@@ -59,7 +59,7 @@ void logTracing(FrameBuilder& frame, TraceRecord& record, const std::string& nam
     };
     const auto log = std::make_shared<TracingLog>();
     record.log = log;
-    const float quantumWatts = ledgerQuantum(frame.scene());
+    const float quantumWatts = frame.inputs().ledgerQuantumWatts;
     record.after =
         frame
             .pass<Data>(

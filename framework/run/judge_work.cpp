@@ -21,6 +21,7 @@ void requireNumbers(const Image& image, const std::string& name) {
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -90,32 +91,44 @@ class TemporaryFile {
     fs::path path_;
 };
 
+// Deals references out to shards: each to the one that has the fewest photons so far.
+class Deal {
+  public:
+    explicit Deal(const Shard& shard) : own_(shard.number - 1), photons_(shard.count, 0) {}
+    // Whether the next reference is the shard's own.
+    [[nodiscard]] bool takes(long long photons) {
+        const auto least = std::min_element(photons_.begin(), photons_.end());
+        *least += photons;
+        const bool isOwn = least == photons_.begin() + static_cast<std::ptrdiff_t>(own_);
+        ++dealt_.all;
+        dealt_.own += isOwn ? 1 : 0;
+        return isOwn;
+    }
+    [[nodiscard]] PreparedReferences dealt() const { return dealt_; }
+
+  private:
+    std::uint64_t own_;
+    std::vector<long long> photons_;  // by shard
+    PreparedReferences dealt_;
+};
+
 class Lighting {
   public:
-    Lighting(const JudgedScene& request, const Watch* watch) : request_(request), watch_(watch) {}
+    // With a deal references are only made, those that it says yes to, and light is of no picture.
+    Lighting(const JudgedScene& request, const Watch* watch, Deal* deal)
+        : request_(request), watch_(watch), deal_(deal) {}
 
     // `scene` must outlive the call alone.
     [[nodiscard]] Lit lightOf(const scene::Scene& scene, bool inClasses, long long photons) const {
+        if (deal_ != nullptr && !deal_->takes(photons)) return {};
         const reference::EmbreeScene embree(scene);
+        const reference::Reference found = referenceOf(embree, inClasses, photons);
+        if (deal_ != nullptr) return {};
         Lit lit;
         reference::DirectViewRequest view;
         view.width = request_.width;
         view.height = request_.height;
         lit.view = reference::traceDirectView(embree, view);
-        reference::ReferenceRequest request;
-        request.width = request_.width;
-        request.height = request_.height;
-        request.seed = static_cast<std::uint64_t>(request_.seed);
-        if (inClasses) {
-            reference::ClassOrder order;
-            order.count = request_.classes;
-            request.classes = reference::chooseClasses(embree, request, order, "class", "classes");
-        }
-        reference::RunOptions options;
-        options.stop.photons = static_cast<std::uint64_t>(photons);
-        const reference::Reference found = watch_ != nullptr
-                                               ? obtainReference(embree, request, options, *watch_)
-                                               : obtainReference(embree, request, options);
         lit.caustics = timesFill(found.irradiance, lit.view.fill);
         for (const reference::ClassImages& of : found.classes) {
             lit.classes.push_back({of.name, timesFill(of.irradiance, lit.view.fill),
@@ -131,6 +144,7 @@ class Lighting {
     // Of the irradiance, as changesByWrongFresnel() has them.
     [[nodiscard]] std::array<Image, reference::kWrongFresnels.size()> changesByFresnel(
         const scene::Scene& scene, long long photons) const {
+        if (deal_ != nullptr) return {};
         const reference::EmbreeScene embree(scene);
         reference::WrongFresnelRequest request;
         request.width = request_.width;
@@ -147,8 +161,26 @@ class Lighting {
     }
 
   private:
+    [[nodiscard]] reference::Reference referenceOf(const reference::EmbreeScene& embree,
+                                                   bool inClasses, long long photons) const {
+        reference::ReferenceRequest request;
+        request.width = request_.width;
+        request.height = request_.height;
+        request.seed = static_cast<std::uint64_t>(request_.seed);
+        if (inClasses) {
+            reference::ClassOrder order;
+            order.count = request_.classes;
+            request.classes = reference::chooseClasses(embree, request, order, "class", "classes");
+        }
+        reference::RunOptions options;
+        options.stop.photons = static_cast<std::uint64_t>(photons);
+        return watch_ != nullptr ? obtainReference(embree, request, options, *watch_)
+                                 : obtainReference(embree, request, options);
+    }
+
     const JudgedScene& request_;
     const Watch* watch_;
+    Deal* deal_;
 };
 
 class Causes {
@@ -352,10 +384,8 @@ class Causes {
     std::set<std::size_t> greens_;
 };
 
-}  // namespace
-
-judge::Subject subjectOf(const scene::Scene& given, const JudgedScene& request,
-                         const Watch* watch) {
+judge::Subject litSubject(const scene::Scene& given, const JudgedScene& request, const Watch* watch,
+                          Deal* deal) {
     if (given.medium) {
         throw ConfigError(fmt::format(
             "judge: {} is in a medium, whose light on the way to the eye references of irradiance "
@@ -369,7 +399,7 @@ judge::Subject subjectOf(const scene::Scene& given, const JudgedScene& request,
     scene::Scene scene = given;
     scene.ambientIrradiance = glm::vec3(0.0f);
     scene::placeLightPoints(scene, kLightPoints, request.height);
-    const Lighting lighting(request, watch);
+    const Lighting lighting(request, watch, deal);
     Lit lit = lighting.lightOf(scene, true, request.photons);
     judge::Subject subject;
     subject.scene = scene.name;
@@ -388,6 +418,20 @@ judge::Subject subjectOf(const scene::Scene& given, const JudgedScene& request,
         subject.causes = Causes(scene, lighting, photons).all();
     }
     return subject;
+}
+
+}  // namespace
+
+judge::Subject subjectOf(const scene::Scene& scene, const JudgedScene& request,
+                         const Watch* watch) {
+    return litSubject(scene, request, watch, nullptr);
+}
+
+PreparedReferences prepareReferences(const scene::Scene& scene, const JudgedScene& request,
+                                     const Shard& shard, const Watch* watch) {
+    Deal deal(shard);
+    static_cast<void>(litSubject(scene, request, watch, &deal));
+    return deal.dealt();
 }
 
 judge::Verdict judgeFile(const scene::Scene& scene, const std::string& file,
@@ -425,6 +469,12 @@ namespace kaustik::run {
 
 judge::Subject subjectOf(const scene::Scene&, const JudgedScene&, const Watch*) {
     throw ConfigError("This program was built without Embree and cannot judge pictures.");
+}
+
+PreparedReferences prepareReferences(const scene::Scene& scene, const JudgedScene& request,
+                                     const Shard&, const Watch* watch) {
+    static_cast<void>(subjectOf(scene, request, watch));
+    return {};
 }
 
 judge::Verdict judgeFile(const scene::Scene& scene, const std::string&, const std::string&,

@@ -3,6 +3,7 @@
 // mistakes would make of it; all from references, which are cached.
 #pragma once
 
+#include "framework/core/shard.h"
 #include "framework/judge/judge.h"
 #include "framework/run/progress.h"
 #include "framework/scene/scene.h"
@@ -22,6 +23,18 @@ struct JudgedScene {
 // on the way to the eye is not in references of irradiance, and for one without anything specular.
 [[nodiscard]] judge::Subject subjectOf(const scene::Scene& scene, const JudgedScene& request,
                                        const Watch* watch = nullptr);
+
+// How many references judging a scene takes, and how many of them were a shard's.
+struct PreparedReferences {
+    int all = 0;
+    int own = 0;
+};
+// Makes a shard's part of the references that subjectOf() asks for and leaves them in the cache,
+// where it finds them; those that are there stay. Shards have about as many photons as each other,
+// no reference is split. What subjectOf() does not keep, wrong laws of Fresnel's, is left to it.
+// Throws as it does.
+PreparedReferences prepareReferences(const scene::Scene& scene, const JudgedScene& request,
+                                     const Shard& shard, const Watch* watch = nullptr);
 
 // Throws ConfigError for a picture of which no light can be told, before references are made:
 // values that are no numbers or negative, black, of 8 bits.

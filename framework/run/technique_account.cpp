@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "framework/audit/hit_audit.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 #include "framework/run/session.h"
 
 namespace kaustik::run {
@@ -145,19 +147,34 @@ std::string TechniqueAccount::modelled() const {
                        paths.interactions, paths.interactions == 1 ? "" : "s");
 }
 
-SceneCensus accountFor(gl::Context& context, const Registry& registry, scene::Scene& scene,
-                       const CensusRequest& request, const Watch& watch) {
-    const std::vector<Row> rows = rowsOf(registry, request);
-    std::vector<RenderSettings> settings;
-    for (const Row& row : rows)
-        settings.push_back(settingsOf(registry, request, row));
+namespace {
+
+SceneCensus censusOfPaths(const scene::Scene& scene, const CensusRequest& request,
+                          const Watch& watch) {
     SceneCensus census;
     census.scene = scene.name;
-    census.device = context.info().renderer;
+    census.shard = request.shard;
     census.light =
         obtainCensus(scene, request.width, request.height, request.photons, request.threads, watch);
     census.classes = classFluxes(census.light, kListedClasses, kLeastListedShare);
     census.objects = objectFluxes(census.light, scene);
+    return census;
+}
+
+}  // namespace
+
+SceneCensus accountFor(gl::Context& context, const Registry& registry, scene::Scene& scene,
+                       const CensusRequest& request, const Watch& watch) {
+    const std::vector<Row> all = rowsOf(registry, request);
+    std::vector<Row> rows;
+    const Shard shard = request.shard.value_or(Shard{});
+    for (std::size_t i = shard.number - 1; i < all.size(); i += shard.count)
+        rows.push_back(all[i]);
+    std::vector<RenderSettings> settings;
+    for (const Row& row : rows)
+        settings.push_back(settingsOf(registry, request, row));
+    SceneCensus census = censusOfPaths(scene, request, watch);
+    census.device = context.info().renderer;
     const auto requireContinued = [&] {
         if (!watch.shouldContinue())
             throw Error("Interrupted; the census of paths is kept.", kExitFailed);
@@ -183,6 +200,93 @@ SceneCensus accountFor(gl::Context& context, const Registry& registry, scene::Sc
     return census;
 }
 
+namespace {
+
+// What a shard's file says of a technique; the rest follows from the census of paths.
+TechniqueAccount accountFrom(const json& row, const reference::PathCensus& light) {
+    TechniqueAccount account;
+    account.technique = row.at("technique");
+    account.isAsPublished = row.at("as_published");
+    if (row.contains("problem")) {
+        account.problem = row.at("problem");
+        return account;
+    }
+    account.paths.transmissionOnly = row.at("models").at("transmission_only");
+    account.paths.reflectionOnly = row.at("models").at("reflection_only");
+    account.paths.interactions = row.at("models").at("maximum_interactions");
+    account.emittedWatts = light.energy.watts[transport::kAccountEmitted];
+    account.formedWatts = row.at("forms_w");
+    for (const auto& [cause, watts] : row.at("loses_w").items())
+        account.losses.emplace_back(cause, watts);
+    for (const auto& [cause, watts] : row.at("not_followed_w").items())
+        account.unfollowed.emplace_back(cause, watts);
+    account.unformed = unformedLight(light, account.paths);
+    account.classes = classFluxes(light, kListedClasses, kLeastListedShare, &account.paths);
+    return account;
+}
+
+// Rows come back to where they were dealt from.
+void addRows(const json& part, const Shard& shard, const reference::PathCensus& light,
+             std::vector<std::optional<TechniqueAccount>>& rows) {
+    std::size_t place = shard.number - 1;
+    for (const json& row : part.at("techniques")) {
+        if (rows.size() <= place) rows.resize(place + 1);
+        rows[place] = accountFrom(row, light);
+        place += shard.count;
+    }
+}
+
+}  // namespace
+
+SceneCensus mergeCensus(const scene::Scene& scene, const CensusRequest& request,
+                        const std::vector<std::filesystem::path>& files, const Watch& watch) {
+    SceneCensus census = censusOfPaths(scene, request, watch);
+    const json own = toJson(census);
+    std::vector<std::optional<TechniqueAccount>> rows;
+    std::vector<bool> isThere;
+    for (const std::filesystem::path& file : files) {
+        try {
+            const json part = parseJson(readFile(file), file.string());
+            if (part.at("schema") != own.at("schema") || !part.contains("shard"))
+                throw ConfigError(fmt::format("{} is no shard of a census.", file.string()));
+            for (const char* key : {"version", "scene", "photons", "energy"}) {
+                if (part.at(key) != own.at(key)) {
+                    throw ConfigError(fmt::format("{} is of another {} than this census of {}.",
+                                                  file.string(), key, scene.name));
+                }
+            }
+            const std::string device = part.at("device");
+            if (!census.device.empty() && device != census.device) {
+                throw ConfigError(fmt::format("{} is of another device, {}, than those before, {}.",
+                                              file.string(), device, census.device));
+            }
+            census.device = device;
+            const Shard shard = parseShard(part.at("shard"), file.string());
+            if (isThere.empty()) isThere.resize(shard.count, false);
+            if (isThere.size() != shard.count) {
+                throw ConfigError(fmt::format("{} is of {} shards, those before it of {}.",
+                                              file.string(), shard.count, isThere.size()));
+            }
+            isThere[shard.number - 1] = true;
+            addRows(part, shard, census.light, rows);
+        } catch (const json::exception&) {
+            throw ConfigError(fmt::format("{} is no shard of a census.", file.string()));
+        }
+    }
+    std::vector<std::uint64_t> missing;
+    for (std::size_t i = 0; i < isThere.size(); ++i) {
+        if (!isThere[i]) missing.push_back(i + 1);
+    }
+    if (!missing.empty()) {
+        throw ConfigError(fmt::format("--merge: of {} shards {} {} missing.", isThere.size(),
+                                      listOfNumbers(missing), missing.size() == 1 ? "is" : "are"));
+    }
+    for (std::optional<TechniqueAccount>& row : rows) {
+        if (row) census.techniques.push_back(std::move(*row));
+    }
+    return census;
+}
+
 json toJson(const SceneCensus& census) {
     const double all = census.light.all.watts;
     json result = {{"schema", "kaustik.census/1"},
@@ -192,6 +296,8 @@ json toJson(const SceneCensus& census) {
                    {"photons", census.light.photons},
                    {"energy", reference::toJson(census.light.energy)},
                    {"arriving", fluxJson(census.light.all, all)}};
+    if (census.shard)
+        result["shard"] = fmt::format("{}/{}", census.shard->number, census.shard->count);
     for (const ClassFlux& one : census.classes) {
         json row = fluxJson(one.flux, all);
         row["class"] = one.name;

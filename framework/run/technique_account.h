@@ -4,11 +4,14 @@
 // `kaustik census` prints.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "framework/core/shard.h"
 #include "framework/gl/context.h"
 #include "framework/run/path_account.h"
 #include "framework/run/settings.h"
@@ -25,6 +28,7 @@ struct CensusRequest {
     // have a row of their own.
     std::vector<std::string> techniques;
     std::vector<params::Assignment> assignments;  // for all of them
+    std::optional<Shard> shard;                   // of the rows, dealt out one by one
 };
 
 struct TechniqueAccount {
@@ -50,7 +54,8 @@ struct SceneCensus {
     reference::PathCensus light;
     std::vector<ClassFlux> classes;
     std::vector<ObjectFlux> objects;
-    std::vector<TechniqueAccount> techniques;
+    std::optional<Shard> shard;                // of all rows
+    std::vector<TechniqueAccount> techniques;  // those of the shard
 };
 
 // Takes the census and renders the frames; `watch` is told how far it is, and may end it, as an
@@ -59,7 +64,16 @@ struct SceneCensus {
                                      scene::Scene& scene, const CensusRequest& request,
                                      const Watch& watch);
 
-// Schema kaustik.census/1: scene, photons, emitted_w, arriving, classes, objects, techniques.
+// The whole of all shards' files, each as toJson() has it, with the scene's census of paths taken
+// or found again: the same as without shards. Throws ConfigError, naming the file, where they do
+// not belong together or to the request, and where one is missing or no such file; IoError where
+// one cannot be read.
+[[nodiscard]] SceneCensus mergeCensus(const scene::Scene& scene, const CensusRequest& request,
+                                      const std::vector<std::filesystem::path>& files,
+                                      const Watch& watch);
+
+// Schema kaustik.census/1: scene, photons, emitted_w, arriving, classes, objects, techniques; of a
+// shard also which.
 [[nodiscard]] nlohmann::json toJson(const SceneCensus& census);
 // Rows of CSV, with their heads: of the classes, and of the techniques.
 [[nodiscard]] std::string classesCsv(const SceneCensus& census);

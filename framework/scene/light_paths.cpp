@@ -7,8 +7,9 @@
 #include <limits>
 #include <optional>
 
+#include "framework/scene/connected_bodies.h"
+#include "framework/scene/meshes/winding_number.h"
 #include "framework/scene/shapes/height_field.h"
-#include "framework/scene/surface_rays.h"
 
 namespace kaustik::scene {
 namespace {
@@ -128,8 +129,9 @@ bool canReach(const Bounds& moving, const Bounds& there, const glm::dvec3& direc
 
 // A receiver that a box comes upon as it moves along a unit `direction`: by its box or, of what
 // that is within, as it is in a room, by rays from nine points of it; null: there is none.
-const Object* receiverReached(const Scene& scene, const SurfaceRays& rays, const Bounds& from,
+const Object* receiverReached(SceneShapes& shapes, const Bounds& from,
                               const glm::dvec3& direction) {
+    const Scene& scene = shapes.scene();
     for (const Object& receiver : scene.objects) {
         if (!isReceiver(scene.materials[receiver.material].kind)) continue;
         const Bounds to = objectBounds(scene, receiver);
@@ -137,6 +139,7 @@ const Object* receiverReached(const Scene& scene, const SurfaceRays& rays, const
     }
     const glm::dvec3 middle = 0.5 * (from.minimum + from.maximum);
     const glm::dvec3 reach = 0.25 * (from.maximum - from.minimum);
+    const SurfaceRays& rays = shapes.receivers();
     for (int i = 0; i < 9; ++i) {
         const glm::dvec3 step(i % 3 - 1, 0, i / 3 - 1);
         if (const auto hit = rays.first(middle + step * reach, direction))
@@ -145,8 +148,7 @@ const Object* receiverReached(const Scene& scene, const SurfaceRays& rays, const
     return nullptr;
 }
 
-// By samples: a corner that lies before a triangle by more than a mesh's noise says that it is not.
-bool isConvex(const Mesh& mesh) {
+bool isConvexBySamples(const Mesh& mesh) {
     constexpr std::size_t kTriangles = 64;
     constexpr std::size_t kCorners = 4096;
     constexpr double kNoise = 1e-3;  // of the mesh's size
@@ -167,6 +169,22 @@ bool isConvex(const Mesh& mesh) {
         }
     }
     return true;
+}
+
+bool areNested(const Scene& scene) {
+    std::vector<const Object*> bodies;
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        if (!mesh.triangles.empty() && mesh.hasInside) bodies.push_back(&object);
+    }
+    for (const Object* outer : bodies) {
+        if (scene.materials[outer->material].kind != MaterialKind::dielectric) continue;
+        const Bounds box = objectBounds(scene, *outer);
+        for (const Object* other : bodies) {
+            if (other != outer && overlap(objectBounds(scene, *other), box)) return true;
+        }
+    }
+    return false;
 }
 
 // By its vertices, as they stand in the world.
@@ -206,7 +224,46 @@ std::vector<bool> openMaterials(const Scene& scene) {
     return open;
 }
 
+const SurfaceRays& SceneShapes::receivers() {
+    const std::vector<std::size_t> objects = receiversOf(scene_);
+    const bool isStill = std::none_of(objects.begin(), objects.end(), [&](std::size_t object) {
+        return scene_.meshes[scene_.objects[object].mesh].heightField.has_value();
+    });
+    if (!receivers_ || !isStill) receivers_.emplace(scene_, objects);
+    return *receivers_;
+}
+
+bool SceneShapes::isConvex(std::uint32_t mesh) {
+    const auto found = convex_.find(mesh);
+    if (found != convex_.end()) return found->second;
+    return convex_.emplace(mesh, isConvexBySamples(scene_.meshes[mesh])).first->second;
+}
+
+bool SceneShapes::turnsBack(std::uint32_t mesh) {
+    // A height over each point has no way back.
+    if (scene_.meshes[mesh].heightField) return false;
+    const auto found = turnsBack_.find(mesh);
+    if (found != turnsBack_.end()) return found->second;
+    return turnsBack_.emplace(mesh, kaustik::scene::turnsBack(scene_.meshes[mesh])).first->second;
+}
+
+const std::vector<std::vector<std::size_t>>& SceneShapes::bodies() {
+    if (!bodies_) bodies_ = connectedBodies(scene_);
+    return *bodies_;
+}
+
+bool SceneShapes::hasNestedBodies() {
+    if (!hasNestedBodies_) hasNestedBodies_ = areNested(scene_);
+    return *hasNestedBodies_;
+}
+
 RepeatedHits repeatedHits(const Scene& scene) {
+    SceneShapes shapes(scene);
+    return repeatedHits(shapes);
+}
+
+RepeatedHits repeatedHits(SceneShapes& shapes) {
+    const Scene& scene = shapes.scene();
     const Object* sheet = nullptr;
     for (const Object& object : scene.objects) {
         const MaterialKind kind = scene.materials[object.material].kind;
@@ -217,7 +274,7 @@ RepeatedHits repeatedHits(const Scene& scene) {
     }
     if (sheet == nullptr) return {};
     if (const Mesh& body = scene.meshes[sheet->mesh]; body.hasInside)
-        return {true, true, !body.closed || !isConvex(body)};
+        return {true, true, !body.closed || !shapes.isConvex(sheet->mesh)};
     const Mesh& mesh = scene.meshes[sheet->mesh];
     const glm::dmat3 normalToWorld = glm::transpose(glm::inverse(glm::dmat3(sheet->toWorld)));
     const std::optional<Slopes> slopes = mesh.heightField
@@ -246,11 +303,16 @@ RepeatedHits repeatedHits(const Scene& scene) {
 }
 
 std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
+    SceneShapes shapes(scene);
+    return reflectedLight(shapes);
+}
+
+std::optional<ReflectedLight> reflectedLight(SceneShapes& shapes) {
+    const Scene& scene = shapes.scene();
     // Still water reflects 2 % of what comes straight down: in a room that is all of the ceiling's
     // light (results/defaults.md).
     constexpr double kMinShare = 0.01;
     std::optional<ReflectedLight> largest;
-    std::optional<SurfaceRays> rays;  // where a sheet reflects enough
     for (const Object& sheet : scene.objects) {
         const Material& material = scene.materials[sheet.material];
         const Mesh& mesh = scene.meshes[sheet.mesh];
@@ -268,8 +330,7 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
             const double share = reflectance(cosine, static_cast<double>(material.ior));
             if (share <= std::max(kMinShare, largest ? largest->share : 0.0)) continue;
             const glm::dvec3 reflected = direction + 2.0 * cosine * up;
-            if (!rays) rays.emplace(scene, receiversOf(scene));
-            if (const Object* receiver = receiverReached(scene, *rays, from, reflected))
+            if (const Object* receiver = receiverReached(shapes, from, reflected))
                 largest = ReflectedLight{sheet.name, receiver->name, share};
         }
     }
@@ -277,11 +338,17 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
 }
 
 std::optional<std::string> concaveBody(const Scene& scene) {
+    SceneShapes shapes(scene);
+    return concaveBody(shapes);
+}
+
+std::optional<std::string> concaveBody(SceneShapes& shapes) {
+    const Scene& scene = shapes.scene();
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
         const bool isDielectric = scene.materials[object.material].kind == MaterialKind::dielectric;
         if (!isDielectric || mesh.triangles.empty() || !mesh.hasInside) continue;
-        if (!isConvex(mesh)) return object.name;
+        if (!shapes.isConvex(object.mesh)) return object.name;
     }
     return std::nullopt;
 }

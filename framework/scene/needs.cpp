@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "framework/scene/connected_bodies.h"
-#include "framework/scene/meshes/winding_number.h"
 #include "framework/scene/shapes/height_field.h"
 #include "framework/scene/spectrum.h"
 
@@ -20,25 +18,15 @@ bool moves(const Mesh& mesh) {
                        });
 }
 
-bool hasNestedBodies(const Scene& scene) {
-    std::vector<const Object*> bodies;
-    for (const Object& object : scene.objects) {
-        const Mesh& mesh = scene.meshes[object.mesh];
-        if (!mesh.triangles.empty() && mesh.hasInside) bodies.push_back(&object);
-    }
-    for (const Object* outer : bodies) {
-        if (scene.materials[outer->material].kind != MaterialKind::dielectric) continue;
-        const Bounds box = objectBounds(scene, *outer);
-        for (const Object* other : bodies) {
-            if (other != outer && overlap(objectBounds(scene, *other), box)) return true;
-        }
-    }
-    return false;
-}
-
 }  // namespace
 
 SceneNeeds sceneNeeds(const Scene& scene) {
+    SceneShapes shapes(scene);
+    return sceneNeeds(shapes);
+}
+
+SceneNeeds sceneNeeds(SceneShapes& shapes) {
+    const Scene& scene = shapes.scene();
     SceneNeeds needs;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
@@ -55,7 +43,9 @@ SceneNeeds sceneNeeds(const Scene& scene) {
                 break;
             case MaterialKind::dielectric:
                 ++needs.refractors;
-                needs.specularInterfaces += mesh.hasInside ? 2 : turnsBack(mesh) ? 3 : 1;
+                needs.specularInterfaces += mesh.hasInside                  ? 2
+                                            : shapes.turnsBack(object.mesh) ? 3
+                                                                            : 1;
                 needs.closedDielectrics = needs.closedDielectrics || mesh.hasInside;
                 break;
             case MaterialKind::mirror:
@@ -63,11 +53,11 @@ SceneNeeds sceneNeeds(const Scene& scene) {
                 break;
         }
     }
-    needs.repeatedHits = repeatedHits(scene);
-    needs.reflectedLight = reflectedLight(scene);
-    needs.concaveBody = concaveBody(scene);
-    needs.bodies = connectedBodies(scene);
-    needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);
+    needs.repeatedHits = repeatedHits(shapes);
+    needs.reflectedLight = reflectedLight(shapes);
+    needs.concaveBody = concaveBody(shapes);
+    needs.bodies = shapes.bodies();
+    needs.nestedBodies = needs.closedDielectrics && shapes.hasNestedBodies();
     needs.photonLights = static_cast<int>(scene.lights.size());
     needs.disperses = disperses(scene);
     needs.bands = std::max(static_cast<int>(scene.bands.size()), 1);

@@ -45,5 +45,7 @@ struct SceneNeeds {
 };
 
 [[nodiscard]] SceneNeeds sceneNeeds(const Scene& scene);
+// Of the same scene again and again, as its lights, waves and time change.
+[[nodiscard]] SceneNeeds sceneNeeds(SceneShapes& shapes);
 
 }  // namespace kaustik::scene

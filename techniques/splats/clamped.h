@@ -29,7 +29,7 @@ struct WidthLimit {
 // Entry `which` of `clamped`, written by the pass of the node. No flux is lost.
 inline void reportWidthLimit(FrameBuilder& frame, const WidthLimit& limit,
                              const graph::Buffer<transport::Clamped>& clamped, std::size_t which) {
-    const double quantumWatts = static_cast<double>(ledgerQuantum(frame.scene()));
+    const double quantumWatts = static_cast<double>(frame.inputs().ledgerQuantumWatts);
     frame.reportLimit(
         {limit.node, {clamped}, [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
              const transport::Clamped found =

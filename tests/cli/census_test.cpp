@@ -97,6 +97,38 @@ TEST_F(Census, IsATableAndFilesToo) {
     EXPECT_EQ(json::parse(readFile(folder / "out/census.json")).at("schema"), "kaustik.census/1");
 }
 
+// To the letter: with the rows of two techniques that have four, dealt out to three.
+TEST_F(Census, OfShardsIsThatOfOneProcess) {
+    const std::vector<std::string> both = {"--technique", "caustic_map"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), both.begin(), both.end());
+        return census(more);
+    };
+    const Outcome whole = with({"--out", "whole"});
+    ASSERT_EQ(whole.exitCode, 0) << whole.err;
+    for (const char* shard : {"3/3", "1/3", "2/3"})
+        ASSERT_EQ(with({"--shard", shard, "--out", "parts"}).exitCode, 0) << shard;
+    expectFailure(with({"--merge", "parts/census-1-of-3.json", "parts/census-3-of-3.json"}), 2,
+                  {"of 3 shards 2 is missing"});
+    const Outcome merged = with({"--merge", "parts/census-1-of-3.json", "parts/census-2-of-3.json",
+                                 "parts/census-3-of-3.json", "--out", "merged"});
+    ASSERT_EQ(merged.exitCode, 0) << merged.err;
+    for (const std::string name : {"classes.csv", "techniques.csv", "census.json"})
+        EXPECT_EQ(readFile(folder / ("merged/" + name)), readFile(folder / ("whole/" + name)));
+}
+
+TEST_F(Census, RefusesPartsOfSomethingElse) {
+    ASSERT_EQ(census({"--shard", "1/1", "--out", "parts"}).exitCode, 0);
+    const std::string part = "parts/census-1-of-1.json";
+    expectFailure(runCached({"census", "ring", "--photons", "100000", "--merge", part}), 2,
+                  {"is of another scene"});
+    expectFailure(census({"--merge", "wavy.toml"}), 2, {"wavy.toml"});
+    ASSERT_EQ(census({"--out", "whole"}).exitCode, 0);
+    expectFailure(census({"--merge", "whole/census.json"}), 2, {"is no shard of a census"});
+    expectFailure(census({"--shard", "1/2"}), 2, {"--out"});
+    expectFailure(census({"--shard", "3/2", "--out", "parts"}), 2, {"--shard"});
+}
+
 TEST_F(Census, IsWhatRunAndExplainSayByLater) {
     const std::vector<std::string> few = {"--set", "specular=interface", "--size", "64x48"};
     const auto with = [&](std::vector<std::string> arguments) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <set>
 
 #include "framework/image/image.h"
 #include "tests/cli/fixture.h"
@@ -179,6 +181,42 @@ TEST_F(Judge, FindsTheClassesOfFiveScenesRightInThePhotonsOfPovray) {
             EXPECT_NEAR(of->at("c").get<double>(), 1.0, 0.05) << scene << " " << name;
         }
     }
+}
+
+// All that judging takes is then in the cache, and nothing else: neither makes a file that the
+// other has not made.
+TEST_F(Judge, TakesTheReferencesThatShardsHaveMade) {
+    const auto kept = [&] {
+        std::set<std::string> names;
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(folder / "cache/references"))
+            names.insert(entry.path().filename().string());
+        return names;
+    };
+    const std::vector<std::string> few = {"--photons", "600000"};
+    const auto judgeFew = [&](std::vector<std::string> more) {
+        more.insert(more.end(), few.begin(), few.end());
+        return judge(more);
+    };
+    // The scene's own, by class and as causes are compared with, and a light to four sides.
+    const Outcome first = judgeFew({"--size", "24x18", "--shard", "1/2"});
+    ASSERT_EQ(first.exitCode, 0) << first.err;
+    EXPECT_NE(first.out.find("shard 1/2: 3 of 6 references"), std::string::npos) << first.out;
+    const std::set<std::string> half = kept();
+    ASSERT_EQ(judgeFew({"--size", "24x18", "--shard", "2/2"}).exitCode, 0);
+    const std::set<std::string> all = kept();
+    EXPECT_GT(all.size(), half.size());
+    ASSERT_EQ(run({"run", "cup.toml", "--size", "24x18", "--set", "emit.photons=64x64", "--frames",
+                   "1", "--warmup", "0", "--out", "ours"})
+                  .exitCode,
+              0);
+    const Outcome judged = judgeFew({"ours/beauty.exr"});
+    ASSERT_EQ(judged.exitCode, 0) << judged.err;
+    EXPECT_EQ(kept(), all);
+
+    expectFailure(judgeFew({}), 2, {"name the picture"});
+    expectFailure(judgeFew({"--shard", "1/2"}), 2, {"name the picture", "--size"});
+    expectFailure(judgeFew({"--size", "24x18", "--shard", "3/2"}), 2, {"--shard", "3/2"});
 }
 
 TEST_F(Judge, RefusesWhatItCannotJudgeInOneSentence) {

@@ -30,7 +30,17 @@ from ._experiments import merge_experiments, read_results, run_experiment
 from ._names import no_attribute as _no_attribute
 from ._lists import nodes, params, scenes, techniques
 from ._pictures import array_html as _array_html
-from ._references import census, certify, compare, export, heat_map, judge, read_reference, reference
+from ._references import (
+    census,
+    certify,
+    compare,
+    export,
+    heat_map,
+    judge,
+    prepare_judge,
+    read_reference,
+    reference,
+)
 from ._renderer import Renderer, open
 
 setattr(Array, "_repr_html_", _array_html)

@@ -79,13 +79,17 @@ def census(
     technique_photons: Tuple[int, int] = (128, 128),
     time: Optional[float] = None,
     settings: Optional[Mapping[str, Any]] = None,
+    shard: str = "",
+    merge: Sequence[Union[str, "os.PathLike[str]"]] = (),
+    out: Union[str, "os.PathLike[str]"] = "",
 ) -> Dict[str, Any]:
     """The watts of each class of a scene's caustic paths, and what of them each technique forms,
     cannot form, and loses; what `kaustik census --json` prints, which does it.
 
     scene is a name or a file. techniques: all where none is named. settings are parameters of
     theirs. What it finds of the paths is kept, so that reports and explain() say what their
-    technique cannot form. Ctrl-C ends it.
+    technique cannot form. shard ("2/8") accounts for the second of eight parts of the techniques and
+    writes it into the folder out, merge puts the files of all parts together. Ctrl-C ends it.
     """
     command = ["census", os.fspath(scene), "--json", "--photons", str(photons)]
     command += ["--size", f"{size[0]}x{size[1]}"]
@@ -97,6 +101,9 @@ def census(
     for key, value in (settings or {}).items():
         text = str(value).lower() if isinstance(value, bool) else str(value)
         command += ["--set", f"{key}={text}"]
+    command += ["--shard", shard] if shard else []
+    command += ["--merge", *map(os.fspath, merge)] if merge else []
+    command += ["--out", os.fspath(out)] if os.fspath(out) else []
     found: Dict[str, Any] = json.loads(run_program(command))
     return found
 
@@ -164,6 +171,27 @@ def judge(
         causes,
     )
     return {**found, "text": text, "residual": residual, "where": where}
+
+
+def prepare_judge(
+    scene: Union[str, "os.PathLike[str]"],
+    size: Tuple[int, int],
+    shard: str,
+    *,
+    time: Optional[float] = None,
+    photons: int = 2**24,
+    seed: int = 1,
+    classes: int = 6,
+    causes: bool = True,
+) -> None:
+    """Makes a part ("2/8") of the references that judge() takes for pictures of this scene (a name or
+    a file) and size, and leaves them in the cache, where judge() finds them: what `kaustik judge
+    --shard` does, which does it."""
+    command = ["judge", os.fspath(scene), "--size", f"{size[0]}x{size[1]}", "--shard", shard]
+    command += ["--photons", str(photons), "--seed", str(seed), "--classes", str(classes)]
+    command += [] if time is None else ["--time", repr(float(time))]
+    command += [] if causes else ["--no-causes"]
+    run_program(command)
 
 
 def certify(

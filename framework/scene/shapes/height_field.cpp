@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "framework/scene/shapes/height_field.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <future>
 #include <glm/gtc/constants.hpp>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "framework/scene/meshes/mesh_builder.h"
 #include "framework/scene/shapes/shape_checks.h"
@@ -11,12 +16,36 @@
 namespace kaustik::scene {
 namespace {
 
-SurfacePoint gridPoint(const HeightField& field, unsigned i, unsigned j, double timeSeconds) {
+SurfacePoint gridPoint(const HeightField& field, const WavesAtTime& waves, unsigned i, unsigned j) {
     const glm::dvec2 size(field.sizeMeters);
     const glm::dvec2 fromCorner = glm::dvec2(i, j) / glm::dvec2(field.cells) * size;
     const glm::dvec2 xz = fromCorner - 0.5 * size;
-    const HeightSample sample = evaluateHeightField(field, xz, timeSeconds);
+    const HeightSample sample = waves.sample(xz);
     return {{xz.x, sample.height, xz.y}, sample.normal, fromCorner};
+}
+
+// As many as are worth a thread.
+unsigned rowsOfThread(const HeightField& field) {
+    constexpr unsigned kSamples = 20'000;
+    const auto samplesOfRow =
+        static_cast<unsigned>(std::max<std::size_t>(field.waves.size(), 1)) * (field.cells.x + 1);
+    return std::max(kSamples / samplesOfRow, 1u);
+}
+
+// Calls `work(begin, end)` for all of `count`, on as many threads as there are processors.
+template <class Work>
+void forRanges(unsigned count, unsigned least, const Work& work) {
+    const unsigned processors = std::max(std::thread::hardware_concurrency(), 1u);
+    const unsigned ranges = std::clamp(count / least, 1u, processors);
+    const auto border = [&](unsigned i) {
+        return static_cast<unsigned>(std::uint64_t{count} * i / ranges);
+    };
+    std::vector<std::future<void>> others;
+    for (unsigned i = 1; i < ranges; ++i)
+        others.push_back(std::async(std::launch::async, work, border(i), border(i + 1)));
+    work(border(0), border(1));
+    for (std::future<void>& other : others)
+        other.get();
 }
 
 }  // namespace
@@ -32,18 +61,27 @@ double angularFrequency(const Wave& wave) {
     return std::sqrt(kGravityMetersPerSecondSquared * glm::length(waveVector(wave)));
 }
 
-HeightSample evaluateHeightField(const HeightField& field, const glm::dvec2& xz,
-                                 double timeSeconds) {
+WavesAtTime::WavesAtTime(const HeightField& field, double timeSeconds) {
+    for (const Wave& wave : field.waves) {
+        waves_.push_back({waveVector(wave), angularFrequency(wave) * timeSeconds,
+                          double(wave.phaseRadians), double(wave.amplitudeMeters)});
+    }
+}
+
+HeightSample WavesAtTime::sample(const glm::dvec2& xz) const {
     double height = 0.0;
     glm::dvec2 slope(0.0);
-    for (const Wave& wave : field.waves) {
-        const glm::dvec2 k = waveVector(wave);
-        const double phase =
-            glm::dot(k, xz) - angularFrequency(wave) * timeSeconds + double(wave.phaseRadians);
-        height += double(wave.amplitudeMeters) * std::cos(phase);
-        slope -= double(wave.amplitudeMeters) * std::sin(phase) * k;
+    for (const Moved& wave : waves_) {
+        const double phase = glm::dot(wave.vector, xz) - wave.turned + wave.phaseRadians;
+        height += wave.amplitudeMeters * std::cos(phase);
+        slope -= wave.amplitudeMeters * std::sin(phase) * wave.vector;
     }
     return {height, glm::normalize(glm::dvec3(-slope.x, 1.0, -slope.y))};
+}
+
+HeightSample evaluateHeightField(const HeightField& field, const glm::dvec2& xz,
+                                 double timeSeconds) {
+    return WavesAtTime(field, timeSeconds).sample(xz);
 }
 
 Mesh makeHeightField(const HeightField& field, double timeSeconds) {
@@ -54,9 +92,10 @@ Mesh makeHeightField(const HeightField& field, double timeSeconds) {
     for (const Wave& wave : field.waves) {
         requirePositive("wavelength", double(wave.wavelengthMeters));
     }
+    const WavesAtTime waves(field, timeSeconds);
     MeshBuilder builder;
     builder.addGrid(field.cells.x, field.cells.y,
-                    [&](unsigned i, unsigned j) { return gridPoint(field, i, j, timeSeconds); });
+                    [&](unsigned i, unsigned j) { return gridPoint(field, waves, i, j); });
     Mesh mesh = builder.finishSheet("water");
     mesh.heightField = field;
     return mesh;
@@ -67,14 +106,17 @@ void setTime(Scene& scene, double timeSeconds) {
     for (Mesh& mesh : scene.meshes) {
         if (!mesh.heightField) continue;
         const HeightField& field = *mesh.heightField;
-        std::size_t vertex = 0;
-        for (unsigned j = 0; j <= field.cells.y; ++j) {
-            for (unsigned i = 0; i <= field.cells.x; ++i, ++vertex) {
-                const SurfacePoint point = gridPoint(field, i, j, timeSeconds);
-                mesh.positions[vertex] = glm::vec3(point.position);
-                mesh.normals[vertex] = glm::vec3(point.normal);
+        const WavesAtTime waves(field, timeSeconds);
+        forRanges(field.cells.y + 1, rowsOfThread(field), [&](unsigned begin, unsigned end) {
+            std::size_t vertex = std::size_t{begin} * (field.cells.x + 1);
+            for (unsigned j = begin; j < end; ++j) {
+                for (unsigned i = 0; i <= field.cells.x; ++i, ++vertex) {
+                    const SurfacePoint point = gridPoint(field, waves, i, j);
+                    mesh.positions[vertex] = glm::vec3(point.position);
+                    mesh.normals[vertex] = glm::vec3(point.normal);
+                }
             }
-        }
+        });
     }
 }
 

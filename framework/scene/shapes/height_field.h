@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "framework/scene/scene.h"
 
@@ -20,6 +21,22 @@ struct HeightSample {
 // sqrt(g k) for deep water where it is negative.
 [[nodiscard]] glm::dvec2 waveVector(const Wave& wave);
 [[nodiscard]] double angularFrequency(const Wave& wave);
+
+// The waves of a field at one time, for many points of it.
+class WavesAtTime {
+  public:
+    WavesAtTime(const HeightField& field, double timeSeconds);
+    [[nodiscard]] HeightSample sample(const glm::dvec2& xz) const;
+
+  private:
+    struct Moved {
+        glm::dvec2 vector;    // rad/m
+        double turned = 0.0;  // rad, since time 0
+        double phaseRadians = 0.0;
+        double amplitudeMeters = 0.0;
+    };
+    std::vector<Moved> waves_;
+};
 
 [[nodiscard]] HeightSample evaluateHeightField(const HeightField& field, const glm::dvec2& xz,
                                                double timeSeconds);

@@ -97,5 +97,45 @@ TEST(SceneNeeds, CountsLightsAndIgnoresMeshesWithoutTriangles) {
     EXPECT_EQ(sceneNeeds(scene).reflectors, 0);
 }
 
+// What shapes are asked again is what a new look at the scene finds, whatever has changed since:
+// the light comes from below, then from beside, and the waves are others.
+TEST(SceneNeeds, OfShapesThatAreKeptAreThoseOfTheSceneAsItIs) {
+    Scene scene;
+    add(scene, makeHeightField({{2.0f, 2.0f}, {16, 16}, {}}, 0.0), MaterialKind::dielectric);
+    add(scene, makeSphere({}), MaterialKind::dielectric);
+    add(scene, makeHeightField({{4.0f, 4.0f}, {8, 8}, {}}, 0.0), MaterialKind::lambertian);
+    scene.objects[1].toWorld[3] = glm::dvec4(0.2, 2.0, 0.0, 1.0);
+    scene.objects[2].toWorld[3] = glm::dvec4(0.0, 5.0, 0.0, 1.0);
+    scene.lights.emplace_back();
+    SceneShapes shapes(scene);
+    int seen = 0;
+    for (const glm::dvec3 direction : {glm::dvec3(0, -1, 0), {0, 1, 0}, {0.96, -0.28, 0}}) {
+        scene.lights[0].direction = direction;
+        for (const float amplitude : {0.0f, 0.4f}) {
+            const std::vector<Wave> waves = {{amplitude, 0.5f, 30.0f, 0.0f, 1.0f}};
+            scene.meshes[0].heightField->waves = waves;
+            scene.meshes[2].heightField->waves = waves;
+            setTime(scene, scene.timeSeconds + 0.5);
+            const SceneNeeds kept = sceneNeeds(shapes);
+            const SceneNeeds anew = sceneNeeds(scene);
+            EXPECT_EQ(kept.specularInterfaces, anew.specularInterfaces);
+            EXPECT_EQ(kept.animated, anew.animated);
+            EXPECT_EQ(kept.repeatedHits.transmitted, anew.repeatedHits.transmitted);
+            EXPECT_EQ(kept.repeatedHits.reflected, anew.repeatedHits.reflected);
+            EXPECT_EQ(kept.repeatedHits.outside, anew.repeatedHits.outside);
+            EXPECT_EQ(kept.concaveBody, anew.concaveBody);
+            EXPECT_EQ(kept.bodies, anew.bodies);
+            EXPECT_EQ(kept.nestedBodies, anew.nestedBodies);
+            ASSERT_EQ(kept.reflectedLight.has_value(), anew.reflectedLight.has_value());
+            if (!kept.reflectedLight) continue;
+            ++seen;
+            EXPECT_EQ(kept.reflectedLight->receiver, anew.reflectedLight->receiver);
+            EXPECT_EQ(kept.reflectedLight->share, anew.reflectedLight->share);
+        }
+    }
+    EXPECT_GT(seen, 0);
+    EXPECT_LT(seen, 6);
+}
+
 }  // namespace
 }  // namespace kaustik::scene

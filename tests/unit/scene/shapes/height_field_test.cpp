@@ -111,6 +111,18 @@ TEST(HeightFieldMesh, SetTimeMovesWaterAndNothingElse) {
     EXPECT_EQ(scene.meshes[0].positions, before);
 }
 
+// Of so many vertices that several threads have a part each.
+TEST(HeightFieldMesh, IsMovedByThreadsAsByOne) {
+    HeightField field = severalWaves();
+    field.cells = {251, 333};
+    Scene scene;
+    scene.meshes.push_back(makeHeightField(field, 0.0));
+    setTime(scene, 1.25);
+    const Mesh expected = makeHeightField(field, 1.25);
+    EXPECT_EQ(scene.meshes[0].positions, expected.positions);
+    EXPECT_EQ(scene.meshes[0].normals, expected.normals);
+}
+
 TEST(HeightFieldMesh, StaysInItsBoundsAtEveryTime) {
     Scene scene;
     scene.meshes.push_back(makeHeightField(severalWaves(), 0.0));
