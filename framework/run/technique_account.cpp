@@ -154,6 +154,9 @@ SceneCensus censusOfPaths(const scene::Scene& scene, const CensusRequest& reques
     SceneCensus census;
     census.scene = scene.name;
     census.shard = request.shard;
+    census.settings = "emit.photons=" + request.techniquePhotons;
+    for (const params::Assignment& assignment : request.assignments)
+        census.settings += fmt::format(" {}={}", assignment.name, assignment.value);
     census.light =
         obtainCensus(scene, request.width, request.height, request.photons, request.threads, watch);
     census.classes = classFluxes(census.light, kListedClasses, kLeastListedShare);
@@ -249,10 +252,10 @@ SceneCensus mergeCensus(const scene::Scene& scene, const CensusRequest& request,
             const json part = parseJson(readFile(file), file.string());
             if (part.at("schema") != own.at("schema") || !part.contains("shard"))
                 throw ConfigError(fmt::format("{} is no shard of a census.", file.string()));
-            for (const char* key : {"version", "scene", "photons", "energy"}) {
+            for (const char* key : {"version", "scene", "settings", "photons", "energy"}) {
                 if (part.at(key) != own.at(key)) {
-                    throw ConfigError(fmt::format("{} is of another {} than this census of {}.",
-                                                  file.string(), key, scene.name));
+                    throw ConfigError(fmt::format("{} differs from this census of {} by its {}.",
+                                                  file.string(), scene.name, key));
                 }
             }
             const std::string device = part.at("device");
@@ -293,6 +296,7 @@ json toJson(const SceneCensus& census) {
                    {"version", versionString()},
                    {"scene", census.scene},
                    {"device", census.device},
+                   {"settings", census.settings},
                    {"photons", census.light.photons},
                    {"energy", reference::toJson(census.light.energy)},
                    {"arriving", fluxJson(census.light.all, all)}};

@@ -51,6 +51,7 @@ struct TechniqueAccount {
 struct SceneCensus {
     std::string scene;
     std::string device;
+    std::string settings;  // of the techniques, "name=value" each
     reference::PathCensus light;
     std::vector<ClassFlux> classes;
     std::vector<ObjectFlux> objects;
@@ -72,8 +73,8 @@ struct SceneCensus {
                                       const std::vector<std::filesystem::path>& files,
                                       const Watch& watch);
 
-// Schema kaustik.census/1: scene, photons, emitted_w, arriving, classes, objects, techniques; of a
-// shard also which.
+// Schema kaustik.census/1: scene, settings, photons, emitted_w, arriving, classes, objects,
+// techniques; of a shard also which.
 [[nodiscard]] nlohmann::json toJson(const SceneCensus& census);
 // Rows of CSV, with their heads: of the classes, and of the techniques.
 [[nodiscard]] std::string classesCsv(const SceneCensus& census);

@@ -121,8 +121,9 @@ TEST_F(Census, RefusesPartsOfSomethingElse) {
     ASSERT_EQ(census({"--shard", "1/1", "--out", "parts"}).exitCode, 0);
     const std::string part = "parts/census-1-of-1.json";
     expectFailure(runCached({"census", "ring", "--photons", "100000", "--merge", part}), 2,
-                  {"is of another scene"});
-    expectFailure(census({"--merge", "wavy.toml"}), 2, {"wavy.toml"});
+                  {"by its scene"});
+    expectFailure(census({"--set", "trace=bvh", "--merge", part}), 2, {"by its settings"});
+    expectFailure(census({"--merge", "wavy.toml"}), 1, {"wavy.toml"});
     ASSERT_EQ(census({"--out", "whole"}).exitCode, 0);
     expectFailure(census({"--merge", "whole/census.json"}), 2, {"is no shard of a census"});
     expectFailure(census({"--shard", "1/2"}), 2, {"--out"});

@@ -216,7 +216,7 @@ TEST_F(Judge, TakesTheReferencesThatShardsHaveMade) {
 
     expectFailure(judgeFew({}), 2, {"name the picture"});
     expectFailure(judgeFew({"--shard", "1/2"}), 2, {"name the picture", "--size"});
-    expectFailure(judgeFew({"--size", "24x18", "--shard", "3/2"}), 2, {"--shard", "3/2"});
+    expectFailure(judgeFew({"--size", "24x18", "--shard", "3/2"}), 2, {"--shard", "no shard 3 of 2"});
 }
 
 TEST_F(Judge, RefusesWhatItCannotJudgeInOneSentence) {
