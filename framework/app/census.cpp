@@ -14,6 +14,7 @@
 #ifdef KAUSTIK_HAS_EMBREE
 #include <nlohmann/json.hpp>
 
+#include "framework/run/census_shards.h"
 #include "framework/run/output.h"
 #include "framework/run/technique_account.h"
 #endif
@@ -37,8 +38,7 @@ run::SceneCensus takeOrMerge(const CensusOptions& options, const Registry& regis
         [] { return !run::isInterrupted(); },
         [&](double share, const std::string& reached) { progress.updateShare(share, reached); }};
     if (!options.merged.empty()) {
-        return run::mergeCensus(scene, request, {options.merged.begin(), options.merged.end()},
-                                watch);
+        return run::mergeCensus(scene, {options.merged.begin(), options.merged.end()}, watch);
     }
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(false);
     return run::accountFor(*context, registry, scene, request, watch);

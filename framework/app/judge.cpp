@@ -4,14 +4,12 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
 #include "framework/core/shard.h"
-#include "framework/image/image.h"
 #include "framework/params/assignment.h"
 #include "framework/run/judge_work.h"
 #include "framework/run/output.h"
@@ -33,13 +31,9 @@ judge::JudgeOptions optionsOf(const JudgeOptions& options) {
     return judge::optionsOf(names, [](const std::string& name) { return "--" + name; });
 }
 
-void prepare(const JudgeOptions& options, const scene::Scene& scene, run::JudgedScene request) {
+void prepare(const JudgeOptions& options, const scene::Scene& scene,
+             const run::JudgedScene& request) {
     const Shard shard = parseShard(options.shard, "--shard");
-    if (options.size.empty()) {
-        const Image theirs = readImage(options.theirs);
-        request.width = theirs.width;
-        request.height = theirs.height;
-    }
     const run::PreparedReferences made = run::prepareReferences(scene, request, shard);
     fmt::print("{}, {}x{}, shard {}/{}: {} of {} references are in the cache\n", scene.name,
                request.width, request.height, shard.number, shard.count, made.own, made.all);
@@ -60,15 +54,18 @@ void judgeCommand(const JudgeOptions& options) {
     request.seed = options.seed;
     request.classes = options.classes;
     request.causes = !options.noCauses;
-    if (options.theirs.empty() && (options.shard.empty() || options.size.empty())) {
+    const bool prepares = !options.shard.empty();
+    if (!prepares && options.theirs.empty()) throw ConfigError("judge: name the picture.");
+    if (prepares &&
+        (!options.theirs.empty() || options.size.empty() || options.json || !options.out.empty())) {
         throw ConfigError(
-            "judge: name the picture; only --shard with --size goes without one, which makes "
-            "references and judges nothing.");
+            "--shard: it makes references for pictures of a size, and judges none: give --size, "
+            "and no picture, --json or --out.");
     }
     const judge::JudgeOptions how = optionsOf(options);
     if (!options.out.empty()) run::requireWritable(options.out, "--out");
     const scene::Scene scene = loadRequestedScene(options.scene, options.time);
-    if (!options.shard.empty()) return prepare(options, scene, std::move(request));
+    if (prepares) return prepare(options, scene, request);
     const judge::Verdict verdict = run::judgeFile(scene, options.theirs, options.theirsErrorFile,
                                                   request, !options.size.empty(), how);
     const std::string json = jsonText(judge::toJson(verdict), 2) + "\n";

@@ -114,7 +114,9 @@ Subcommand addCensus(CLI::App& app, const Registry& registry) {
                        "Folder for classes.csv, techniques.csv and census.json");
     command.add_option("--shard", options->shard,
                        "K/N: only the K-th of N parts of the techniques, as census-K-of-N.json");
-    command.add_option("--merge", options->merged, "Puts the parts of all shards together")
+    command
+        .add_option("--merge", options->merged,
+                    "Puts the parts of all shards together, which say what they were asked for")
         ->expected(-1);
     addDeviceOption(command);
     return {&command, [options, &registry] {
@@ -248,7 +250,7 @@ Subcommand addJudge(CLI::App& app) {
                      "Only classes: no references of what else may be wrong");
     command.add_option("--shard", options->shard,
                        "K/N: only makes the K-th of N parts of the references, for the cache that "
-                       "judging takes them from; needs --size or the picture");
+                       "judging takes them from; needs --size, and no picture");
     command.add_flag("--json", options->json, "As JSON");
     command.add_option("--out", options->out,
                        "Folder for judge.json, judge.txt, where.png and residual.exr");

@@ -23,6 +23,7 @@ struct RenderWorker::Device {
     int sceneReloads = 0;
     std::unique_ptr<scene::Scene> base;  // as its file says
     std::unique_ptr<scene::Scene> scene;
+    std::optional<scene::SceneShapes> shapes;
     std::optional<scene::SceneEdits> edits;  // that the scene has
     std::array<std::unique_ptr<VariantRenderer>, 2> renderers;
 

@@ -27,12 +27,13 @@ void updateScene(scene::Scene& scene, const scene::Scene& base, const scene::Sce
     if (moved && !edits.timeSeconds && edits.waves.empty()) setTime(scene, base.timeSeconds);
 }
 
-std::shared_ptr<const SceneFacts> factsOf(const scene::Scene& base, const scene::Scene& scene) {
+std::shared_ptr<const SceneFacts> factsOf(const scene::Scene& base, scene::SceneShapes& shapes) {
+    const scene::Scene& scene = shapes.scene();
     auto facts = std::make_shared<SceneFacts>();
     facts->name = scene.name;
     facts->description = scene.description;
     facts->triangles = triangleCount(scene);
-    facts->needs = sceneNeeds(scene);
+    facts->needs = sceneNeeds(shapes);
     facts->bounds = sceneBounds(scene);
     facts->camera = base.camera;
     for (const scene::Light& light : base.lights) {
@@ -61,11 +62,13 @@ bool RenderWorker::loadScene(Device& device) {
             device.renderers = {};
             working_.variants = {};
             device.base = std::move(base);
+            device.shapes.reset();  // of the scene that goes
             device.scene = std::make_unique<scene::Scene>(*device.base);
+            device.shapes.emplace(*device.scene);
             device.sceneName = document.scene;
             device.sceneReloads = device.order.sceneReloads;
             device.edits = scene::SceneEdits();
-            working_.scene = factsOf(*device.base, *device.scene);
+            working_.scene = factsOf(*device.base, *device.shapes);
         }
         if (device.edits != document.edits) {
             device.edits.reset();  // of the scene as it is until this is whole
@@ -74,7 +77,7 @@ bool RenderWorker::loadScene(Device& device) {
             for (const auto& renderer : device.renderers) {
                 if (renderer) renderer->noteSceneChange();
             }
-            working_.scene = factsOf(*device.base, *device.scene);
+            working_.scene = factsOf(*device.base, *device.shapes);
         }
         working_.problem.clear();
         return true;

@@ -8,12 +8,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "framework/audit/hit_audit.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
-#include "framework/core/json_text.h"
 #include "framework/run/session.h"
 
 namespace kaustik::run {
@@ -29,6 +27,10 @@ struct Row {
     std::string technique;
     bool isAsPublished = false;
 };
+
+std::string nameOfRow(const std::string& technique, bool isAsPublished) {
+    return technique + (isAsPublished ? ", as published" : "");
+}
 
 std::vector<Row> rowsOf(const Registry& registry, const CensusRequest& request) {
     std::vector<std::string> names = request.techniques;
@@ -67,7 +69,7 @@ TechniqueAccount renderedAccount(gl::Context& context, const Registry& registry,
     if (!session.renderFor(Purpose::audit, shouldContinue)) return account;
     const Renderer& renderer = session.renderer();
     account.paths = renderer.outputs().hits.incoming.paths;
-    account.emittedWatts = census.light.energy.watts[kAccountEmitted];
+    setLight(account, census.light);
     // Each photon is followed exactly, too: else what has hit nothing may be lost or have left the
     // scene. And all are judged by the same light.
     const EnergyLedger ledger =
@@ -80,8 +82,9 @@ TechniqueAccount renderedAccount(gl::Context& context, const Registry& registry,
         if (!isLoss && ledger.watts[cause] != 0.0)
             account.unfollowed.emplace_back(name, ledger.watts[cause]);
     }
-    account.unformed = unformedLight(census.light, account.paths);
-    account.classes = classFluxes(census.light, kListedClasses, kLeastListedShare, &account.paths);
+    // As a file of the account has them.
+    std::sort(account.losses.begin(), account.losses.end());
+    std::sort(account.unfollowed.begin(), account.unfollowed.end());
     return account;
 }
 
@@ -120,6 +123,13 @@ json pairsJson(const std::vector<std::pair<std::string, double>>& watts) {
     return result;
 }
 
+std::string settingsText(const CensusRequest& request) {
+    std::string text = "emit.photons=" + request.techniquePhotons;
+    for (const params::Assignment& assignment : request.assignments)
+        text += fmt::format(" {}={}", assignment.name, assignment.value);
+    return text;
+}
+
 // Without what would have to be set instead.
 std::string shortProblem(const std::string& problem) {
     return problem.substr(0, problem.find(';'));
@@ -138,6 +148,10 @@ double TechniqueAccount::lostWatts() const {
     return sum;
 }
 
+std::string TechniqueAccount::rowName() const {
+    return nameOfRow(technique, isAsPublished);
+}
+
 std::string TechniqueAccount::modelled() const {
     if (paths.interactions == 0) return "no caustic";
     return fmt::format("{}, {} interaction{}",
@@ -147,24 +161,23 @@ std::string TechniqueAccount::modelled() const {
                        paths.interactions, paths.interactions == 1 ? "" : "s");
 }
 
-namespace {
+void setLight(TechniqueAccount& account, const reference::PathCensus& light) {
+    account.emittedWatts = light.energy.watts[transport::kAccountEmitted];
+    account.unformed = unformedLight(light, account.paths);
+    account.classes = classFluxes(light, kListedClasses, kLeastListedShare, &account.paths);
+}
 
 SceneCensus censusOfPaths(const scene::Scene& scene, const CensusRequest& request,
                           const Watch& watch) {
     SceneCensus census;
     census.scene = scene.name;
-    census.shard = request.shard;
-    census.settings = "emit.photons=" + request.techniquePhotons;
-    for (const params::Assignment& assignment : request.assignments)
-        census.settings += fmt::format(" {}={}", assignment.name, assignment.value);
+    census.request = request;
     census.light =
         obtainCensus(scene, request.width, request.height, request.photons, request.threads, watch);
     census.classes = classFluxes(census.light, kListedClasses, kLeastListedShare);
     census.objects = objectFluxes(census.light, scene);
     return census;
 }
-
-}  // namespace
 
 SceneCensus accountFor(gl::Context& context, const Registry& registry, scene::Scene& scene,
                        const CensusRequest& request, const Watch& watch) {
@@ -178,6 +191,9 @@ SceneCensus accountFor(gl::Context& context, const Registry& registry, scene::Sc
         settings.push_back(settingsOf(registry, request, row));
     SceneCensus census = censusOfPaths(scene, request, watch);
     census.device = context.info().renderer;
+    census.settings = settingsText(request);
+    for (const Row& row : all)
+        census.rows.push_back(nameOfRow(row.technique, row.isAsPublished));
     const auto requireContinued = [&] {
         if (!watch.shouldContinue())
             throw Error("Interrupted; the census of paths is kept.", kExitFailed);
@@ -185,9 +201,8 @@ SceneCensus accountFor(gl::Context& context, const Registry& registry, scene::Sc
     const reference::EmbreeScene exact(scene);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         requireContinued();
-        watch.tell(
-            static_cast<double>(i) / static_cast<double>(rows.size()),
-            fmt::format("{}{}", rows[i].technique, rows[i].isAsPublished ? ", as published" : ""));
+        watch.tell(static_cast<double>(i) / static_cast<double>(rows.size()),
+                   nameOfRow(rows[i].technique, rows[i].isAsPublished));
         TechniqueAccount account;
         try {
             account = renderedAccount(context, registry, scene, std::move(settings[i]), exact,
@@ -203,93 +218,6 @@ SceneCensus accountFor(gl::Context& context, const Registry& registry, scene::Sc
     return census;
 }
 
-namespace {
-
-// What a shard's file says of a technique; the rest follows from the census of paths.
-TechniqueAccount accountFrom(const json& row, const reference::PathCensus& light) {
-    TechniqueAccount account;
-    account.technique = row.at("technique");
-    account.isAsPublished = row.at("as_published");
-    if (row.contains("problem")) {
-        account.problem = row.at("problem");
-        return account;
-    }
-    account.paths.transmissionOnly = row.at("models").at("transmission_only");
-    account.paths.reflectionOnly = row.at("models").at("reflection_only");
-    account.paths.interactions = row.at("models").at("maximum_interactions");
-    account.emittedWatts = light.energy.watts[transport::kAccountEmitted];
-    account.formedWatts = row.at("forms_w");
-    for (const auto& [cause, watts] : row.at("loses_w").items())
-        account.losses.emplace_back(cause, watts);
-    for (const auto& [cause, watts] : row.at("not_followed_w").items())
-        account.unfollowed.emplace_back(cause, watts);
-    account.unformed = unformedLight(light, account.paths);
-    account.classes = classFluxes(light, kListedClasses, kLeastListedShare, &account.paths);
-    return account;
-}
-
-// Rows come back to where they were dealt from.
-void addRows(const json& part, const Shard& shard, const reference::PathCensus& light,
-             std::vector<std::optional<TechniqueAccount>>& rows) {
-    std::size_t place = shard.number - 1;
-    for (const json& row : part.at("techniques")) {
-        if (rows.size() <= place) rows.resize(place + 1);
-        rows[place] = accountFrom(row, light);
-        place += shard.count;
-    }
-}
-
-}  // namespace
-
-SceneCensus mergeCensus(const scene::Scene& scene, const CensusRequest& request,
-                        const std::vector<std::filesystem::path>& files, const Watch& watch) {
-    SceneCensus census = censusOfPaths(scene, request, watch);
-    const json own = toJson(census);
-    std::vector<std::optional<TechniqueAccount>> rows;
-    std::vector<bool> isThere;
-    for (const std::filesystem::path& file : files) {
-        try {
-            const json part = parseJson(readFile(file), file.string());
-            if (part.at("schema") != own.at("schema") || !part.contains("shard"))
-                throw ConfigError(fmt::format("{} is no shard of a census.", file.string()));
-            for (const char* key : {"version", "scene", "settings", "photons", "energy"}) {
-                if (part.at(key) != own.at(key)) {
-                    throw ConfigError(fmt::format("{} differs from this census of {} by its {}.",
-                                                  file.string(), scene.name, key));
-                }
-            }
-            const std::string device = part.at("device");
-            if (!census.device.empty() && device != census.device) {
-                throw ConfigError(fmt::format("{} is of another device, {}, than those before, {}.",
-                                              file.string(), device, census.device));
-            }
-            census.device = device;
-            const Shard shard = parseShard(part.at("shard"), file.string());
-            if (isThere.empty()) isThere.resize(shard.count, false);
-            if (isThere.size() != shard.count) {
-                throw ConfigError(fmt::format("{} is of {} shards, those before it of {}.",
-                                              file.string(), shard.count, isThere.size()));
-            }
-            isThere[shard.number - 1] = true;
-            addRows(part, shard, census.light, rows);
-        } catch (const json::exception&) {
-            throw ConfigError(fmt::format("{} is no shard of a census.", file.string()));
-        }
-    }
-    std::vector<std::uint64_t> missing;
-    for (std::size_t i = 0; i < isThere.size(); ++i) {
-        if (!isThere[i]) missing.push_back(i + 1);
-    }
-    if (!missing.empty()) {
-        throw ConfigError(fmt::format("--merge: of {} shards {} {} missing.", isThere.size(),
-                                      listOfNumbers(missing), missing.size() == 1 ? "is" : "are"));
-    }
-    for (std::optional<TechniqueAccount>& row : rows) {
-        if (row) census.techniques.push_back(std::move(*row));
-    }
-    return census;
-}
-
 json toJson(const SceneCensus& census) {
     const double all = census.light.all.watts;
     json result = {{"schema", "kaustik.census/1"},
@@ -300,8 +228,13 @@ json toJson(const SceneCensus& census) {
                    {"photons", census.light.photons},
                    {"energy", reference::toJson(census.light.energy)},
                    {"arriving", fluxJson(census.light.all, all)}};
-    if (census.shard)
-        result["shard"] = fmt::format("{}/{}", census.shard->number, census.shard->count);
+    if (const CensusRequest& request = census.request; request.shard) {
+        result["shard"] = {
+            {"part", fmt::format("{}/{}", request.shard->number, request.shard->count)},
+            {"size", {request.width, request.height}},
+            {"photons", request.photons},
+            {"rows", census.rows}};
+    }
     for (const ClassFlux& one : census.classes) {
         json row = fluxJson(one.flux, all);
         row["class"] = one.name;
@@ -406,8 +339,7 @@ std::string makeTable(const SceneCensus& census) {
     text += fmt::format("{:<42}{:<32}{:>10}{:>16}{:>9}{:>10}  {}\n", "technique", "models",
                         "forms, W", "cannot form, W", "", "loses, W", "by cause");
     for (const TechniqueAccount& account : census.techniques) {
-        const std::string name =
-            account.technique + (account.isAsPublished ? ", as published" : "");
+        const std::string name = account.rowName();
         if (!account.problem.empty()) {
             text += fmt::format("  {:<40}does not go with this scene: {}\n", name,
                                 shortProblem(account.problem));

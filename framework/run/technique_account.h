@@ -44,6 +44,8 @@ struct TechniqueAccount {
     std::vector<std::pair<std::string, double>> unfollowed;  // W, as the ledger has them: also what
                                                              // would have reached no receiver
     [[nodiscard]] double lostWatts() const;
+    // "planar, as published"
+    [[nodiscard]] std::string rowName() const;
     // "transmission, 8 interactions"
     [[nodiscard]] std::string modelled() const;
 };
@@ -51,12 +53,13 @@ struct TechniqueAccount {
 struct SceneCensus {
     std::string scene;
     std::string device;
-    std::string settings;  // of the techniques, "name=value" each
     reference::PathCensus light;
     std::vector<ClassFlux> classes;
     std::vector<ObjectFlux> objects;
-    std::optional<Shard> shard;                // of all rows
-    std::vector<TechniqueAccount> techniques;  // those of the shard
+    CensusRequest request;                     // by which it was made
+    std::string settings;                      // of the techniques, as text
+    std::vector<std::string> rows;             // of techniques, all that were asked for
+    std::vector<TechniqueAccount> techniques;  // of those the shard's own
 };
 
 // Takes the census and renders the frames; `watch` is told how far it is, and may end it, as an
@@ -65,16 +68,14 @@ struct SceneCensus {
                                      scene::Scene& scene, const CensusRequest& request,
                                      const Watch& watch);
 
-// The whole of all shards' files, each as toJson() has it, with the scene's census of paths taken
-// or found again: the same as without shards. Throws ConfigError, naming the file, where they do
-// not belong together or to the request, and where one is missing or no such file; IoError where
-// one cannot be read.
-[[nodiscard]] SceneCensus mergeCensus(const scene::Scene& scene, const CensusRequest& request,
-                                      const std::vector<std::filesystem::path>& files,
-                                      const Watch& watch);
+// Without techniques yet.
+[[nodiscard]] SceneCensus censusOfPaths(const scene::Scene& scene, const CensusRequest& request,
+                                        const Watch& watch);
+// What of an account follows from the paths that its technique models.
+void setLight(TechniqueAccount& account, const reference::PathCensus& light);
 
-// Schema kaustik.census/1: scene, settings, photons, emitted_w, arriving, classes, objects,
-// techniques; of a shard also which.
+// Schema kaustik.census/1: scene, settings, photons, energy, arriving, classes, objects,
+// techniques; of a shard also which, and what it was asked for (census_shards.h).
 [[nodiscard]] nlohmann::json toJson(const SceneCensus& census);
 // Rows of CSV, with their heads: of the classes, and of the techniques.
 [[nodiscard]] std::string classesCsv(const SceneCensus& census);

@@ -129,9 +129,8 @@ bool canReach(const Bounds& moving, const Bounds& there, const glm::dvec3& direc
 
 // A receiver that a box comes upon as it moves along a unit `direction`: by its box or, of what
 // that is within, as it is in a room, by rays from nine points of it; null: there is none.
-const Object* receiverReached(SceneShapes& shapes, const Bounds& from,
+const Object* receiverReached(const Scene& scene, const SurfaceRays& rays, const Bounds& from,
                               const glm::dvec3& direction) {
-    const Scene& scene = shapes.scene();
     for (const Object& receiver : scene.objects) {
         if (!isReceiver(scene.materials[receiver.material].kind)) continue;
         const Bounds to = objectBounds(scene, receiver);
@@ -139,7 +138,6 @@ const Object* receiverReached(SceneShapes& shapes, const Bounds& from,
     }
     const glm::dvec3 middle = 0.5 * (from.minimum + from.maximum);
     const glm::dvec3 reach = 0.25 * (from.maximum - from.minimum);
-    const SurfaceRays& rays = shapes.receivers();
     for (int i = 0; i < 9; ++i) {
         const glm::dvec3 step(i % 3 - 1, 0, i / 3 - 1);
         if (const auto hit = rays.first(middle + step * reach, direction))
@@ -240,8 +238,6 @@ bool SceneShapes::isConvex(std::uint32_t mesh) {
 }
 
 bool SceneShapes::turnsBack(std::uint32_t mesh) {
-    // A height over each point has no way back.
-    if (scene_.meshes[mesh].heightField) return false;
     const auto found = turnsBack_.find(mesh);
     if (found != turnsBack_.end()) return found->second;
     return turnsBack_.emplace(mesh, kaustik::scene::turnsBack(scene_.meshes[mesh])).first->second;
@@ -313,6 +309,7 @@ std::optional<ReflectedLight> reflectedLight(SceneShapes& shapes) {
     // light (results/defaults.md).
     constexpr double kMinShare = 0.01;
     std::optional<ReflectedLight> largest;
+    const SurfaceRays* rays = nullptr;  // where a sheet reflects enough
     for (const Object& sheet : scene.objects) {
         const Material& material = scene.materials[sheet.material];
         const Mesh& mesh = scene.meshes[sheet.mesh];
@@ -330,7 +327,8 @@ std::optional<ReflectedLight> reflectedLight(SceneShapes& shapes) {
             const double share = reflectance(cosine, static_cast<double>(material.ior));
             if (share <= std::max(kMinShare, largest ? largest->share : 0.0)) continue;
             const glm::dvec3 reflected = direction + 2.0 * cosine * up;
-            if (const Object* receiver = receiverReached(shapes, from, reflected))
+            if (rays == nullptr) rays = &shapes.receivers();
+            if (const Object* receiver = receiverReached(scene, *rays, from, reflected))
                 largest = ReflectedLight{sheet.name, receiver->name, share};
         }
     }

@@ -118,14 +118,36 @@ TEST_F(Census, OfShardsIsThatOfOneProcess) {
 }
 
 TEST_F(Census, RefusesPartsOfSomethingElse) {
-    ASSERT_EQ(census({"--shard", "1/1", "--out", "parts"}).exitCode, 0);
-    const std::string part = "parts/census-1-of-1.json";
-    expectFailure(runCached({"census", "ring", "--photons", "100000", "--merge", part}), 2,
-                  {"by its scene"});
-    expectFailure(census({"--set", "trace=bvh", "--merge", part}), 2, {"by its settings"});
-    expectFailure(census({"--merge", "wavy.toml"}), 1, {"wavy.toml"});
+    const auto merge = [&](const std::string& scene, std::vector<std::string> files) {
+        files.insert(files.begin(), {"census", scene, "--merge"});
+        return runCached(files);
+    };
+    const std::string part = "parts/census-1-of-2.json";
+    const std::string other = "others/census-2-of-2.json";
+    const auto makeOther = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"--shard", "2/2", "--out", "others"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(census(arguments).exitCode, 0);
+    };
+    ASSERT_EQ(census({"--shard", "1/2", "--out", "parts"}).exitCode, 0);
+    makeOther({"--set", "trace=bvh"});
+    expectFailure(merge("wavy.toml", {part, other}), 2, {other, "by their settings"});
+    ASSERT_EQ(runCached({"census", "wavy.toml", "--photons", "100000", "--size", "32x24",
+                         "--technique-photons", "64x64", "--technique", "exact_rays", "--shard",
+                         "2/2", "--out", "others"})
+                  .exitCode,
+              0);
+    expectFailure(merge("wavy.toml", {part, other}), 2, {other, "by their size"});
+    makeOther({"--technique", "planar"});
+    expectFailure(merge("wavy.toml", {part, other}), 2, {other, "by their rows"});
+    makeOther({});
+    EXPECT_EQ(merge("wavy.toml", {other, part}).exitCode, 0);
+    expectFailure(merge("ring", {part, other}), 2, {part, "is of another scene than ring"});
+    expectFailure(merge("wavy.toml", {part, part, other}), 2, {"shard 1 is there twice"});
+    expectFailure(merge("wavy.toml", {part}), 2, {"of 2 shards 2 is missing"});
+    expectFailure(merge("wavy.toml", {"wavy.toml"}), 1, {"wavy.toml"});
     ASSERT_EQ(census({"--out", "whole"}).exitCode, 0);
-    expectFailure(census({"--merge", "whole/census.json"}), 2, {"is no shard of a census"});
+    expectFailure(merge("wavy.toml", {"whole/census.json"}), 2, {"is no shard of a census"});
     expectFailure(census({"--shard", "1/2"}), 2, {"--out"});
     expectFailure(census({"--shard", "3/2", "--out", "parts"}), 2, {"--shard"});
 }

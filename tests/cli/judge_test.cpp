@@ -215,8 +215,11 @@ TEST_F(Judge, TakesTheReferencesThatShardsHaveMade) {
     EXPECT_EQ(kept(), all);
 
     expectFailure(judgeFew({}), 2, {"name the picture"});
-    expectFailure(judgeFew({"--shard", "1/2"}), 2, {"name the picture", "--size"});
-    expectFailure(judgeFew({"--size", "24x18", "--shard", "3/2"}), 2, {"--shard", "no shard 3 of 2"});
+    expectFailure(judgeFew({"--shard", "1/2"}), 2, {"--shard", "give --size"});
+    expectFailure(judgeFew({"ours/beauty.exr", "--size", "24x18", "--shard", "1/2"}), 2,
+                  {"no picture"});
+    expectFailure(judgeFew({"--size", "24x18", "--shard", "3/2"}), 2,
+                  {"--shard", "no shard 3 of 2"});
 }
 
 TEST_F(Judge, RefusesWhatItCannotJudgeInOneSentence) {

@@ -73,6 +73,17 @@ class References(TestCase):
         self.assertEqual(found["techniques"][0]["technique"], "planar")
         self.assert_fails(kaustik.ConfigError, ["planar"], kaustik.census, "ring", techniques=["planra"])
 
+    def test_are_shared_out_in_shards(self):
+        folder = self.folder()
+        asked = {"photons": 100000, "techniques": ["planar"], "size": (64, 48)}
+        for shard in ("1/2", "2/2"):
+            kaustik.census("ring", shard=shard, out=folder, **asked)
+        files = [os.path.join(folder, f"census-{i}-of-2.json") for i in (1, 2)]
+        self.assertEqual(kaustik.census("ring", merge=files), kaustik.census("ring", **asked))
+        for shard in ("1/2", "2/2"):
+            kaustik.prepare_judge("ring", (24, 18), shard, photons=600000, causes=False)
+        self.assert_fails(kaustik.ConfigError, ["3 of 2"], kaustik.prepare_judge, "ring", (24, 18), "3/2")
+
     def test_end_at_ctrl_c_and_refuse_what_makes_no_sense(self):
         interrupt_after(0.3)
         with self.assertRaises(KeyboardInterrupt):

@@ -71,6 +71,7 @@ __all__ = [
     "nodes",
     "open",
     "params",
+    "prepare_judge",
     "read_reference",
     "read_results",
     "reference",

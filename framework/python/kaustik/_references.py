@@ -89,7 +89,8 @@ def census(
     scene is a name or a file. techniques: all where none is named. settings are parameters of
     theirs. What it finds of the paths is kept, so that reports and explain() say what their
     technique cannot form. shard ("2/8") accounts for the second of eight parts of the techniques and
-    writes it into the folder out, merge puts the files of all parts together. Ctrl-C ends it.
+    writes it into the folder out, merge puts the files of all parts together, which say what they
+    were asked for. Ctrl-C ends it.
     """
     command = ["census", os.fspath(scene), "--json", "--photons", str(photons)]
     command += ["--size", f"{size[0]}x{size[1]}"]
@@ -178,7 +179,6 @@ def prepare_judge(
     size: Tuple[int, int],
     shard: str,
     *,
-    time: Optional[float] = None,
     photons: int = 2**24,
     seed: int = 1,
     classes: int = 6,
@@ -189,7 +189,6 @@ def prepare_judge(
     --shard` does, which does it."""
     command = ["judge", os.fspath(scene), "--size", f"{size[0]}x{size[1]}", "--shard", shard]
     command += ["--photons", str(photons), "--seed", str(seed), "--classes", str(classes)]
-    command += [] if time is None else ["--time", repr(float(time))]
     command += [] if causes else ["--no-causes"]
     run_program(command)
 

@@ -110,6 +110,8 @@ bool boundsVolume(double windingBehind) {
 }
 
 bool turnsBack(const Mesh& mesh) {
+    // A height over each point has no way back.
+    if (mesh.heightField) return false;
     constexpr double kShare = 1e-3;
     glm::dvec3 mean(0.0);
     for (const glm::uvec3& triangle : mesh.triangles)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <future>
 #include <glm/gtc/constants.hpp>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -34,15 +35,20 @@ unsigned rowsOfThread(const HeightField& field) {
 
 // Calls `work(begin, end)` for all of `count`, on as many threads as there are processors.
 template <class Work>
-void forRanges(unsigned count, unsigned least, const Work& work) {
+void forRanges(unsigned count, unsigned leastOfThread, const Work& work) {
     const unsigned processors = std::max(std::thread::hardware_concurrency(), 1u);
-    const unsigned ranges = std::clamp(count / least, 1u, processors);
+    const unsigned ranges = std::clamp(count / leastOfThread, 1u, processors);
     const auto border = [&](unsigned i) {
         return static_cast<unsigned>(std::uint64_t{count} * i / ranges);
     };
     std::vector<std::future<void>> others;
-    for (unsigned i = 1; i < ranges; ++i)
-        others.push_back(std::async(std::launch::async, work, border(i), border(i + 1)));
+    for (unsigned i = 1; i < ranges; ++i) {
+        try {
+            others.push_back(std::async(std::launch::async, work, border(i), border(i + 1)));
+        } catch (const std::system_error&) {  // no more threads are to be had
+            work(border(i), border(i + 1));
+        }
+    }
     work(border(0), border(1));
     for (std::future<void>& other : others)
         other.get();
