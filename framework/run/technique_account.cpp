@@ -77,8 +77,9 @@ TechniqueAccount renderedAccount(gl::Context& context, const Registry& registry,
     account.formedWatts = ledger.watts[kAccountDeposited];
     account.losses = lossesOf(ledger, account.paths);
     for (const auto& [cause, name] : lossCauses()) {
-        const bool isLoss = std::any_of(account.losses.begin(), account.losses.end(),
-                                        [&](const auto& loss) { return loss.first == name; });
+        const bool isLoss =
+            std::any_of(account.losses.begin(), account.losses.end(),
+                        [&lossName = name](const auto& loss) { return loss.first == lossName; });
         if (!isLoss && ledger.watts[cause] != 0.0)
             account.unfollowed.emplace_back(name, ledger.watts[cause]);
     }
