@@ -10,8 +10,8 @@ irradiance at the study's middle number of photons, net of the reference's own n
 - noise: the variance, pixel by pixel, between runs with nearly as many photons whose cells lie elsewhere. Another start of the grid would
   give another picture; this is what the mean over many would lose.
 - photons: of the rest, the bias, what infinitely many photons would take away: the biases of the three counts, extrapolated (Aitken:
-  each step to four times as many changes by the same factor); where they do not fall that way, down to the most photons' alone
-  (`extrapolated` is false).
+  each step to four times as many changes by the same factor); where they do not fall that way, or to below 0, down to the most photons'
+  alone (`extrapolated` is false).
 - pixels: by how much the bias is less where the frame is rendered with twice the pixels a side, has lost that frame's own noise and is
   brought back to the size by its mean.
 - stays: what is left: what the method leaves out or approximates.
@@ -22,6 +22,7 @@ A part may be negative: estimates are noisy, more pixels may be worse, and more 
 import argparse
 import csv
 import json
+import math
 import sys
 from collections import defaultdict
 from pathlib import Path
@@ -62,6 +63,15 @@ def halved(image: np.ndarray) -> np.ndarray:
     return image.reshape(height, 2, width, 2, -1).mean(axis=(1, 3))
 
 
+def limit_of(few: float, middle: float, many: float) -> tuple[float, bool]:
+    """What biases fall to with ever more photons, and whether that is extrapolated. A bias is a mean of squares: where the two steps
+    are nearly the same, Aitken's limit may be anything, and one below 0 is none."""
+    steps = few - middle, middle - many
+    limit = many - steps[1] ** 2 / (steps[0] - steps[1]) if 0.0 < steps[1] < steps[0] else -math.inf
+    rounding = 1e-5 * abs(few)  # of 32-bit pictures
+    return (max(limit, 0.0), True) if limit >= -rounding else (many, False)
+
+
 def parts_of(runs: Runs) -> dict:
     """Of relMSE, as `kaustik compare` defines it: the mean over channels and pixels of the squared difference by the squared reference
     and an epsilon."""
@@ -97,9 +107,7 @@ def parts_of(runs: Runs) -> dict:
         # Noise is known for the middle alone; its square falls as the photons rise.
         return share * mse(photons) - truths - noise * (middle / photons) ** 2
 
-    steps = bias(few) - bias(middle), bias(middle) - bias(many)
-    extrapolated = 0.0 < steps[1] < steps[0]
-    limit = bias(many) - (steps[1] ** 2 / (steps[0] - steps[1]) if extrapolated else 0.0)
+    limit, extrapolated = limit_of(bias(few), bias(middle), bias(many))
     pixels = bias(middle) - (share * mse(middle, fine) - truths - variance(fine))
     return {"relMSE": share * mse(middle) - truths, "noise": noise, "photons": bias(middle) - limit, "pixels": pixels,
             "stays": limit - pixels, "extrapolated": str(extrapolated).lower()}

@@ -61,6 +61,13 @@ class ErrorParts(unittest.TestCase):
         self.assertEqual(table["stays"]["extrapolated"], "false")
         self.assertTrue((self.folder / "out/parts.svg").is_file())
 
+    def test_biases_that_fall_by_nearly_the_same_have_no_limit_below_zero(self):
+        square = {128: 0.3, 252: 0.2, 256: 0.2, 260: 0.2, 512: 0.101}
+        self.add("steady", lambda count: grey(8, 6, 1.0 + square[count] ** 0.5), lambda count: grey(16, 12, 1.0 + 0.2 ** 0.5))
+        row = self.parts()["steady"]
+        self.check(row, photons=0.099, stays=0.101)
+        self.assertEqual(row["extrapolated"], "false")
+
     def test_what_differs_between_repeats_is_noise(self):
         rng = np.random.default_rng(3)
         size = (6, 8, 3)

@@ -79,6 +79,17 @@ class Missing(unittest.TestCase):
     def test_is_all_of_a_study_that_was_never_run(self):
         self.assertEqual(rebuild.missing_parts("refined"), [[]])
 
+    def test_is_refused_before_any_run_where_old_rows_do_not_say_all_settings(self):
+        (self.root / "experiments/equal_error.toml").write_text('[permute]\nscene = ["pool", "ring"]\n')
+        file = self.root / "results/reconstructions/equal_error.csv"
+        file.parent.mkdir()
+        file.write_text("scene,status\npool,done\n")
+        with self.assertRaises(rebuild.Failure) as raised:
+            rebuild.missing_parts("equal_error")
+        self.assertIn("make it whole", str(raised.exception))
+        file.write_text("scene,status,as_published\npool,done,false\n")
+        self.assertEqual(len(rebuild.missing_parts("equal_error")), 1)
+
 
 ALL = """folder,hash,repeat,status,message,scene,trace,frame_ms.max,frame_ms.mean,frame_ms.median,frame_ms.stdev,photons.emitted,device,version
 1,1,1,done,,pool,lines,9,8,8,1,100,a,1
