@@ -4,7 +4,6 @@
 // `kaustik census` prints.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -98,7 +98,7 @@ TEST(SceneNeeds, CountsLightsAndIgnoresMeshesWithoutTriangles) {
 }
 
 // What shapes are asked again is what a new look at the scene finds, whatever has changed since:
-// the light comes from below, then from beside, and the waves are others.
+// the light comes from below, then from a side, and the waves are others.
 TEST(SceneNeeds, OfShapesThatAreKeptAreThoseOfTheSceneAsItIs) {
     Scene scene;
     add(scene, makeHeightField({{2.0f, 2.0f}, {16, 16}, {}}, 0.0), MaterialKind::dielectric);
