@@ -159,7 +159,7 @@ double millisecondsSince(Clock::time_point begin) {
 }
 
 // Every identifier of `text`, to tell a misspelt uniform from one that was optimised away.
-void insertWords(const std::string& text, std::set<std::string>& words) {
+void insertWords(const std::string& text, std::unordered_set<std::string>& words) {
     const auto isWord = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
     };

@@ -10,8 +10,8 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -85,7 +85,7 @@ class Program {
     ProgramObject object_;
     std::unique_ptr<Unfinished> unfinished_;  // until its status was asked for
     std::string name_;
-    std::set<std::string> words_;  // every identifier of the sources
+    std::unordered_set<std::string> words_;  // every identifier of the sources
     std::map<std::string, GLint> uniforms_;
     std::map<std::string, GLuint> storageBlocks_;
     std::map<std::string, GLuint> uniformBlocks_;

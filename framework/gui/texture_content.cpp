@@ -201,6 +201,7 @@ const std::vector<Row>& rows() {
         {"view", "sight", "what a ray next to the pixel's middle sees", single, kDepthAndNormal},
         {"view", "sight_surface", "normals next to the pixel's middle", vector,
          xyz("", "material + 1")},
+        {"view", "path_ending", "how the eye's rays end", single, {{"how, from 1; 0: none", ""}}},
         {"view", "exit_position", "where the eye's rays leave, in the eye's space", vector,
          xyz("m", "surfaces")},
         {"view", "exit_direction", "directions in which the eye's rays leave", vector,

@@ -13,24 +13,21 @@ double EyeRays::shareOf(std::size_t rays) const {
     return pixels > 0 ? static_cast<double>(rays) / static_cast<double>(pixels) : 0.0;
 }
 
-EyeRays countEyeRays(const gl::Texture& exitDirection) {
+EyeRays countEyeRays(const gl::Texture& ending) {
     EyeRays rays;
-    const std::vector<float> texels = exitDirection.read();
-    for (std::size_t i = 0; i + 3 < texels.size(); i += 4) {
-        const float ending = texels[i + 3];
-        const bool hasDirection =
-            texels[i] != 0.0f || texels[i + 1] != 0.0f || texels[i + 2] != 0.0f;
-        if (!hasDirection && ending == kPathLost) continue;  // it met nothing specular
+    for (const float texel : ending.read()) {
+        if (texel == 0.0f) continue;
+        const float ended = texel - kPathMet;
         ++rays.pixels;
-        if (ending == kPathExited) {
+        if (ended == kPathExited) {
             ++rays.cameOut;
-        } else if (ending == kPathEndedInside) {
+        } else if (ended == kPathEndedInside) {
             ++rays.endedInside;
-        } else if (ending == kPathReflectionLimit) {
+        } else if (ended == kPathReflectionLimit) {
             ++rays.reflectionLimit;
-        } else if (ending == kPathMirrorLimit) {
+        } else if (ended == kPathMirrorLimit) {
             ++rays.mirrorLimit;
-        } else if (ending == kPathNestingLimit) {
+        } else if (ended == kPathNestingLimit) {
             ++rays.nestingLimit;
         } else {
             ++rays.lost;

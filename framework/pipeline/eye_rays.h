@@ -22,7 +22,7 @@ struct EyeRays {
     [[nodiscard]] double shareOf(std::size_t rays) const;
 };
 
-// Of View::exitDirection, which waits for the device.
-[[nodiscard]] EyeRays countEyeRays(const gl::Texture& exitDirection);
+// Of View::ending, which waits for the device.
+[[nodiscard]] EyeRays countEyeRays(const gl::Texture& ending);
 
 }  // namespace kaustik

@@ -110,10 +110,12 @@ struct Shadows {
     graph::Texture<VisibilityTexel> visibility;  // array, a layer a light
 };
 
-// What the eye sees through or in specular objects, and where its transmitted rays left them for
-// good; the latter is invalid where a node does not follow rays.
+// What the eye sees through or in specular objects, how its transmitted rays ended, and where they
+// left for good; all but the first are invalid where a node does not follow rays. Nothing is stored
+// in the last two but in a graph that one of them is asked of.
 struct View {
     graph::Texture<RadianceTexel> radiance;
+    graph::Texture<PathEnding> ending;
     graph::Texture<ExitPosition> exitPosition;
     graph::Texture<ExitDirection> exitDirection;
 };

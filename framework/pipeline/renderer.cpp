@@ -265,7 +265,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
         return isMade;
     };
     hasLayerStatistics_ = keepIfMade(outputs_.layers.statistics);
-    hasEyeRays_ = keepIfMade(outputs_.picture.view.exitDirection);
+    hasEyeRays_ = keepIfMade(outputs_.picture.view.ending);
     if (hasLayerStatistics_ || hasEyeRays_) compiled = graph_->compile();
     limits_.clear();
     nodeWarnings_.clear();
@@ -432,7 +432,7 @@ transport::LayerStatistics Renderer::layerStatistics() const {
 
 std::optional<EyeRays> Renderer::eyeRays() const {
     if (!hasEyeRays_) return std::nullopt;
-    return countEyeRays(executor_.texture(outputs_.picture.view.exitDirection));
+    return countEyeRays(executor_.texture(outputs_.picture.view.ending));
 }
 
 const gl::Texture& Renderer::texture(const graph::ResourceRef& handle) const {

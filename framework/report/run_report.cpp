@@ -236,6 +236,7 @@ struct ReportTable {
     Timing timing;
     Summary frameMilliseconds;
     Summary bookkeepingMilliseconds;
+    std::optional<Summary> betweenFramesMilliseconds;
     double graphBuildMilliseconds = 0.0;
     double startupMilliseconds = 0.0;
     std::vector<PassTable> passes;
@@ -299,6 +300,9 @@ void reflect(F& f, const ReportTable& report) {
     f.field("frame_ms", report.frameMilliseconds, "Of whole frames");
     f.field("bookkeeping_ms", report.bookkeepingMilliseconds,
             "Of a frame's work beside its passes");
+    f.field("between_frames_ms", report.betweenFramesMilliseconds,
+            "Of the processor, to bring a scene that moves to the next frame's time: its meshes, "
+            "what it needs, the graph");
     f.field("graph_build_ms", report.graphBuildMilliseconds, "Of making the graph");
     f.field("startup_ms", report.startupMilliseconds, "Until the first frame");
     f.field("programs", ProgramsTable{gl::programStatistics()}, "Of shaders");
@@ -367,6 +371,8 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
     table.timing = record.timing;
     table.frameMilliseconds = summarize(frameSamples(record));
     table.bookkeepingMilliseconds = summarize(bookkeepingSamples(record));
+    if (!record.betweenFramesMilliseconds.empty())
+        table.betweenFramesMilliseconds = summarize(record.betweenFramesMilliseconds);
     table.graphBuildMilliseconds = record.graphBuildMilliseconds;
     table.startupMilliseconds = record.startupMilliseconds;
     table.passes = passTables(record);

@@ -44,7 +44,9 @@ struct RunRecord {
     std::vector<std::pair<std::size_t, std::size_t>> stepBytes;  // textures, buffers in use in them
     std::vector<graph::PassRecord> passes;                       // of the timed graph
     std::vector<gl::FrameTime> frames;                           // timed ones only
-    Timing timing;                                               // of these
+    // The processor's, to bring a scene that moves from one timed frame's time to the next one's.
+    std::vector<double> betweenFramesMilliseconds;
+    Timing timing;  // of these
     int warmup = 0;
     long long seed = 1;
     double timeStepSeconds = 0.0;  // between timed frames

@@ -39,6 +39,17 @@ scene::Scene& withLightPoints(scene::Scene& scene, const RenderSettings& setting
     return scene;
 }
 
+// Leaves no more than the last `count`.
+template <class T>
+void keepLast(std::vector<T>& all, std::size_t count) {
+    if (all.size() > count) all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(count));
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+        .count();
+}
+
 }  // namespace
 
 void checkSeries(const FrameSeries& series, const SeriesNames& names) {
@@ -108,6 +119,7 @@ void Session::setPrecise(bool isPrecise) {
     measuringMilliseconds_.reset();
     record_.timer = timer_.mode();
     record_.frames.clear();
+    record_.betweenFramesMilliseconds.clear();
 }
 
 void Session::keep(std::set<std::string> textures) {
@@ -141,6 +153,7 @@ void Session::bringUpToDate(const RenderSettings* other) {
     needsUpdate_ = other != nullptr;
     if (!std::exchange(forgetsTimes_, false)) return;
     record_.frames.clear();
+    record_.betweenFramesMilliseconds.clear();
     record_.warmup = 0;
 }
 
@@ -183,6 +196,7 @@ void Session::restartRecord() {
     }
     if (now.stepNames == record_.stepNames) {
         now.frames = std::move(record_.frames);
+        now.betweenFramesMilliseconds = std::move(record_.betweenFramesMilliseconds);
         now.timing = record_.timing;
         now.warmup = record_.warmup;
     }
@@ -203,8 +217,7 @@ void Session::measureDepthComplexity() {
 }
 
 void Session::noteStartup(std::chrono::steady_clock::time_point begin) {
-    record_.startupMilliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    record_.startupMilliseconds = millisecondsSince(begin);
 }
 
 RunReference Session::referenceFor(const FrameSeries& series, const std::string& wanted,
@@ -258,8 +271,8 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         record_.warmup += static_cast<int>(warm);
         std::vector<gl::FrameTime>& all = record_.frames;
         all.insert(all.end(), rendered.times.begin(), rendered.times.end());
-        if (all.size() > options_.framesKept)
-            all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(options_.framesKept));
+        keepLast(all, options_.framesKept);
+        keepLast(record_.betweenFramesMilliseconds, options_.framesKept);
         if (date.empty()) return;
         record_.timing = {.date = date,
                           .otherProcessors = otherProcessors(processors, processorTimes()),
@@ -271,6 +284,9 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         for (int frame = 0; frame < total; ++frame) {
             const double seconds = series.secondsOf(std::max(frame - series.warmup, 0), begin);
             if (seconds != scene_.timeSeconds) add(timer_.takeFinished(true));
+            const bool moves = frame > series.warmup && renderer_.needs().animated &&
+                               seconds != scene_.timeSeconds;
+            const auto frameBefore = std::chrono::steady_clock::now();
             setTime(seconds);
             std::optional<MeasuredFrame> measured;
             if (total == 1 && reference != nullptr && saved != nullptr)
@@ -280,6 +296,7 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
             } else {
                 prepare();
             }
+            if (moves) record_.betweenFramesMilliseconds.push_back(millisecondsSince(frameBefore));
             if (frame == series.warmup) {
                 processors = processorTimes();
                 date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));

@@ -28,7 +28,7 @@ struct ReceiverTexel {  // x: view depth in m, 0 none; y: area of the surface th
                         // m²
     static constexpr Format format = Format::rg32f;
 };
-struct AlbedoTexel {  // rgb: reflectance
+struct AlbedoTexel {  // rgb: reflectance; a: 1 where there is a receiver, else 0
     static constexpr Format format = Format::rgba16f;
 };
 struct DepthBuffer {
@@ -99,6 +99,11 @@ struct DisplayTexel {  // rgb: display-encoded (sRGB), [0,1]
 };
 
 struct VisibilityTexel {  // x: share of a light's direct light that reaches the receiver, [0, 1]
+    static constexpr Format format = Format::r32f;
+};
+// x: how the middle of the pixel's ray has gone through specular surfaces, kPath… + kPathMet; 0: it
+// met none.
+struct PathEnding {
     static constexpr Format format = Format::r32f;
 };
 struct ExitPosition {  // xyz: view space, m; w: specular surfaces that the eye's ray hit, 0 none

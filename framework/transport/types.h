@@ -217,6 +217,8 @@ const float kPathReflectionLimit = -1.0f;
 const float kPathMirrorLimit = -2.0f;   // by mirrors; it is taken to see the environment
 const float kPathNestingLimit = -3.0f;  // in more dielectrics at once than a stack holds
 const float kPathEndedInside = 2.0f;
+// What is added to them where a texel that says how a path has ended is 0 if there was none.
+const float kPathMet = 4.0f;
 
 // Accounts of the energy ledger (framework/README.md, "The energy ledger"). The device sums the
 // three channels; reports say their mean (transport/watts.h).

@@ -11,7 +11,6 @@
 
 layout(location = 0) out vec4 radiance;
 
-uniform sampler2D receiver;
 uniform sampler2D receiverAlbedo;
 #if defined(GLOSSY_RECEIVERS) || defined(EMISSION)
 uniform sampler2D receiverSurface;
@@ -29,11 +28,12 @@ uniform sampler2D causticIrradiance;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    if (texelFetch(receiver, pixel, 0).x <= 0.0) {
+    vec4 reflectance = texelFetch(receiverAlbedo, pixel, 0);
+    if (reflectance.a <= 0.0) {  // there is no receiver
         radiance = vec4(environmentRadiance(normalize(viewRay(gl_FragCoord.xy))), 1.0);
         return;
     }
-    vec3 albedo = texelFetch(receiverAlbedo, pixel, 0).rgb * (1.0 / 3.14159265);
+    vec3 albedo = reflectance.rgb * (1.0 / 3.14159265);
     vec3 fill = albedo * view.ambient.rgb;
 #ifdef GLOSSY_RECEIVERS
     // Light from everywhere: the whole of the lobe reflects it.

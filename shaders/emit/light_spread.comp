@@ -24,9 +24,9 @@ void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    Photon photon = photonAt(texel);
     mat2 turn = mat2(0.0);
-    if (photon.fate == kFateSpecular) turn = turnFromDisc(photon, lights[originAt(texel).light]);
+    if (fateAt(texel) == kFateSpecular)
+        turn = turnFromDisc(photonAt(texel), lights[originAt(texel).light]);
     imageStore(nextSpreadPlace, texel, vec4(0.0));
     imageStore(nextSpreadTurn, texel, vec4(turn[0], turn[1]));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One depth layer: the nearest surface beyond the previous layer (Everitt 2001). The depth buffer
 // holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
-// down to what 32-bit view depth can (hard cases 12, 13).
+// down to what 32-bit view depth can (hard cases 12, 13). COUNTED: memory was not cleared, and what
+// a pixel's layers hold is defined as far as it has fragments.
 #include "include/views/octahedral.glsl"
 #include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
@@ -13,6 +14,9 @@ layout(location = 1) out vec4 layerSurface;
 uniform sampler2DArray layerDepths;
 uniform int layer;
 uniform int before;  // the index of the layer before this one
+#ifdef COUNTED
+uniform sampler2D counts;
+#endif
 
 const float kDepthScale = 1.0 / 1048576.0;
 
@@ -22,6 +26,9 @@ void main() {
     vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
     vec3 shading = fragmentNormal(geometric);
     if (layer > 0) {
+#ifdef COUNTED
+        if (layer >= int(texelFetch(counts, ivec2(gl_FragCoord.xy), 0).x)) discard;
+#endif
         float depthBefore = texelFetch(layerDepths, ivec3(gl_FragCoord.xy, before), 0).x;
         if (depthBefore <= 0.0 || depth <= depthBefore) discard;
     }

@@ -14,8 +14,8 @@ void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
+    if (fateAt(texel) != kFateSpecular) return;
     Photon photon = photonAt(texel);
-    if (photon.fate != kFateSpecular) return;
     PhotonOrigin origin = originAt(texel);
     float whole = isFromOtherBatch(origin) ? 1.0 / kNegligible : 1.0;
     cellFlux[cellPlaceOf(origin, ivec2(0), 0u)] =

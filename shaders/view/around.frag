@@ -11,7 +11,7 @@
 //   GLOSSY_RECEIVERS   which knows where it comes from
 #include "tracing/secant.glsl"
 #include "include/surfaces/environment.glsl"
-#include "include/views/first_surface.glsl"
+#include "include/views/view_outputs.glsl"
 #include "include/surfaces/generators.glsl"
 #ifdef HAS_LIGHTS
 #include "include/views/light_shadow.glsl"
@@ -31,10 +31,6 @@ uniform int lightCount;
 #endif
 uniform vec4 eyeFrustum;  // as ViewData has them
 uniform vec4 eyeSizePixels;
-
-layout(location = 0) out vec4 radiance;
-layout(location = 1) out vec4 exitPosition;
-layout(location = 2) out vec4 exitDirection;
 
 FirstHit firstAround(vec3 origin, vec3 direction, uint media) {
     bool isCut;
@@ -264,5 +260,5 @@ void main() {
         seen += reflected * solidAngles(mediaAtEye, branch.media);
     }
     radiance = vec4(seen, 1.0);
-    weigh(radiance);
+    finishPixel();
 }

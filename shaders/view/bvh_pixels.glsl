@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // view.bvh: the pixels that look at something specular, and what is stored of them.
 #include "include/thread_list.glsl"
+#include "include/views/path_ending.glsl"
 #include "include/views/view_sample.glsl"
 
 layout(rgba32f) uniform image2D viewRadiance;
 #ifndef BESIDE_MIDDLE
+layout(r32f) writeonly uniform image2D viewPathEnding;
+#endif
+#ifdef EXITS
 layout(rgba32f) writeonly uniform image2D viewExitPosition;
 layout(rgba32f) writeonly uniform image2D viewExitDirection;
 #endif
@@ -27,10 +31,13 @@ void storeRadiance(ivec2 pixel, vec4 radiance) {
     imageStore(viewRadiance, pixel, radiance);
 }
 
-// Where the middle's ray left for good, with how many surfaces it met; its direction, with how it
-// ended (kPath…), or 0.
+// How the middle's ray ended, and, with EXITS, where it left for good, with how many surfaces it
+// met; its direction, with how it ended (kPath…), or 0.
 void storeExit(ivec2 pixel, vec4 position, vec4 direction) {
 #ifndef BESIDE_MIDDLE
+    imageStore(viewPathEnding, pixel, vec4(pathEndingOf(direction)));
+#endif
+#ifdef EXITS
     imageStore(viewExitPosition, pixel, position);
     imageStore(viewExitDirection, pixel, direction);
 #endif

@@ -5,10 +5,7 @@
 // changes by T/n² where it leaves the medium that the receiver lies in (hard case 28a). A mirror
 // shows the scene.
 #include "include/views/scene_look.glsl"
-
-layout(location = 0) out vec4 radiance;
-layout(location = 1) out vec4 exitPosition;
-layout(location = 2) out vec4 exitDirection;
+#include "include/views/view_outputs.glsl"
 
 // Where the refracted ray hits the receivers, as a pixel.
 ivec2 pixelBehind(vec3 entry, vec3 direction, float distanceBehind, ivec2 pixel) {
@@ -74,5 +71,5 @@ void look(ivec2 pixel) {
 
 void main() {
     look(ivec2(gl_FragCoord.xy));
-    weigh(radiance);
+    finishPixel();
 }

@@ -4,13 +4,10 @@
 // mirror to mirror. Radiance changes by T at every interface and by 1/n² where what is seen lies in
 // a medium of index n (hard case 28a), and is absorbed on the way.
 #include "include/views/scene_look.glsl"
+#include "include/views/view_outputs.glsl"
 #ifdef DIELECTRICS
 #include "view/refraction_next_interface.glsl"
 #endif
-
-layout(location = 0) out vec4 radiance;
-layout(location = 1) out vec4 exitPosition;
-layout(location = 2) out vec4 exitDirection;
 
 #ifdef DIELECTRICS
 const float kFar = 1e30;
@@ -189,5 +186,5 @@ void look(ivec2 pixel) {
 
 void main() {
     look(ivec2(gl_FragCoord.xy));
-    weigh(radiance);
+    finishPixel();
 }

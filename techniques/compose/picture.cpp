@@ -104,14 +104,18 @@ DirectLight lightDirectly(FrameBuilder& frame, const Shadows& shadows, EyeBuffer
             setup.bypass(direct.radiance, {0, 0, 0, 0});
         },
         [lights](const DirectLight& direct, gl::PassContext& context) {
-            context.texture(direct.irradiance).clear({0, 0, 0, 0});
-            if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
+            if (lights == 0) {
+                context.texture(direct.irradiance).clear({0, 0, 0, 0});
+                if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
+            }
             for (int light = 0; light < lights; ++light) {
                 gl::Command command = context.fullscreen("compose/picture_direct.frag");
                 command.set("lightIndex", light).target(direct.irradiance);
                 if (direct.radiance.valid())
                     command.define("GLOSSY_RECEIVERS").target(direct.radiance);
-                command.blend(gl::Blend::add).draw();
+                // The first one's replaces what is there.
+                if (light > 0) command.blend(gl::Blend::add);
+                command.draw();
             }
         });
 }
@@ -124,7 +128,6 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
     return frame.pass<Radiance>(
         "compose.radiance", "the picture shows the receivers",
         [&](graph::PassSetup& setup, Radiance& out) {
-            setup.sample("receiver", eye.receiver);
             setup.sample("receiverAlbedo", eye.receiverAlbedo);
             if (isGlossy || emits) setup.sample("receiverSurface", eye.receiverSurface);
             if (isGlossy) {

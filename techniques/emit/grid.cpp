@@ -214,11 +214,10 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
                                                                      gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 beginEmission(context, photons, samples);
-                if (grids->empty() || !samples.cells.valid()) {
+                // Cells without a photon say so themselves (emit/grid_list.comp). Textures that are
+                // kept, for pictures and scans, are whole.
+                if (grids->empty() || isAnyKept(context, data.hits))
                     clearEmitted(context, data.hits);
-                    if (photons.extents.valid())
-                        context.texture(photons.extents).clear({0, 0, 0, 0});
-                }
                 const int end = grids->empty() ? 0 : samples.firstLight + samples.lights;
                 for (int light = samples.firstLight; light < end; ++light) {
                     const LightSight& seen =

@@ -325,7 +325,6 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                                                                 gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 beginEmission(context, photons, samples);
-                if (photons.extents.valid()) context.texture(photons.extents).clear({0, 0, 0, 0});
                 // Vertices that the light does not see are no photons.
                 clearEmitted(context, data.hits);
                 const int end = emission->lights.empty() ? 0 : samples.firstLight + samples.lights;

@@ -94,7 +94,7 @@ std::vector<glm::vec2> samplesOfPixel(int count) {
 
 View renderReceiversOnly(FrameBuilder& frame, const std::string& pass, const Radiance& receivers) {
     frame.skip(pass, whyNothingSeenThrough(frame.facts()));
-    return {receivers.radiance, {}, {}};
+    return {receivers.radiance, {}, {}, {}};
 }
 
 std::string lookReason(const FrameBuilder& frame) {
@@ -152,9 +152,11 @@ ViewPass declareView(const FrameBuilder& frame, graph::PassSetup& setup, const G
     const int w = frame.width();
     const int h = frame.height();
     pass.seen.radiance = setup.create<RadianceTexel>("view.radiance", w, h);
+    pass.seen.ending = setup.create<PathEnding>("view.path_ending", w, h);
     pass.seen.exitPosition = setup.create<ExitPosition>("view.exit_position", w, h);
     pass.seen.exitDirection = setup.create<ExitDirection>("view.exit_direction", w, h);
     setup.bypass(pass.seen.radiance, receivers.radiance);
+    setup.bypass(pass.seen.ending, {0, 0, 0, 0});
     setup.bypass(pass.seen.exitPosition, {0, 0, 0, 0});
     setup.bypass(pass.seen.exitDirection, {0, 0, 0, 0});
     ViewSamples& samples = pass.samples;
@@ -213,6 +215,10 @@ void lookBySamples(const FrameInputs& inputs, gl::PassContext& context, const Vi
     }
 }
 
+bool storesExits(const gl::PassContext& context, const View& seen) {
+    return context.isKept(seen.exitPosition) || context.isKept(seen.exitDirection);
+}
+
 void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
                   const std::string& shader, const std::vector<Tell>& tells) {
     // First pixels that need no look, then the others, by the marks that the first have left.
@@ -224,7 +230,9 @@ void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const Vie
             sample.tell(command);
             command.target(pass.seen.radiance);
             if (sample.isMiddle()) {
-                command.target(pass.seen.exitPosition).target(pass.seen.exitDirection);
+                command.target(pass.seen.ending);
+                if (storesExits(context, pass.seen))
+                    command.target(pass.seen.exitPosition).target(pass.seen.exitDirection);
             } else {
                 command.blend(gl::Blend::add);
             }
@@ -248,20 +256,19 @@ void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPas
 void reportExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
                      const std::string& parameter, const std::string& unit, int value,
                      std::size_t EyeRays::*ending, const std::string& fate) {
-    frame.reportLimit({pass,
-                       {seen.exitDirection},
-                       [=, exits = seen.exitDirection](
-                           const gl::Executor& executor) -> std::optional<ReachedLimit> {
-                           const std::size_t rays = countEyeRays(executor.texture(exits)).*ending;
-                           if (rays == 0) return {};
-                           return ReachedLimit{
-                               parameter,
-                               unit,
-                               static_cast<double>(value),
-                               0.0,
-                               fmt::format("the eye's rays of {} pixels {}", rays, fate),
-                               0.0};
-                       }});
+    frame.reportLimit(
+        {pass,
+         {seen.ending},
+         [=, endings = seen.ending](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             const std::size_t rays = countEyeRays(executor.texture(endings)).*ending;
+             if (rays == 0) return {};
+             return ReachedLimit{parameter,
+                                 unit,
+                                 static_cast<double>(value),
+                                 0.0,
+                                 fmt::format("the eye's rays of {} pixels {}", rays, fate),
+                                 0.0};
+         }});
 }
 
 void reportLostRays(FrameBuilder& frame, const std::string& pass, const View& seen,
@@ -269,10 +276,9 @@ void reportLostRays(FrameBuilder& frame, const std::string& pass, const View& se
     constexpr double kTold = 0.01;
     frame.reportLimit(
         {pass,
-         {seen.exitDirection},
-         [=,
-          exits = seen.exitDirection](const gl::Executor& executor) -> std::optional<ReachedLimit> {
-             const EyeRays rays = countEyeRays(executor.texture(exits));
+         {seen.ending},
+         [=, endings = seen.ending](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             const EyeRays rays = countEyeRays(executor.texture(endings));
              const double share = rays.shareOf(rays.lost);
              if (share <= kTold) return {};
              return ReachedLimit{

@@ -114,6 +114,9 @@ struct ViewPass {
                                    const EyeBuffer& eye, const LayeredDepth& sceneLayers,
                                    const Radiance& receivers, const Shadows& shadows);
 
+// Whether what such a pass draws holds where the eye's rays left for good: somebody asks for it.
+[[nodiscard]] bool storesExits(const gl::PassContext& context, const View& seen);
+
 // Tells a shader what it asks for.
 using Tell = std::function<void(gl::Command&)>;
 // A ray through each pixel.

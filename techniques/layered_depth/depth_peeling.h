@@ -16,7 +16,9 @@ struct LayersRequest {
     std::string name;
     render::DrawSet set = render::DrawSet::all;
     int layers = 8;
-    bool reducesCounts = false;               // by a texture reduce instead of atomics
+    bool reducesCounts = false;  // by a texture reduce instead of atomics
+    // Whether somebody asks how many there are. Of one layer alone nothing else needs to know.
+    bool countsFragments = true;
     std::string reader = "the tracer needs";  // that needs them, for people
     Views views = nullptr;                    // the eye's
     // Of the eye's view only what this tile of the screen shows; the rest stays empty.
@@ -27,10 +29,8 @@ struct LayersRequest {
 };
 // Draws a command to the pixels that are asked for.
 void drawTo(gl::Command& command, const LayersRequest& request);
-// Adds the pass that counts the fragments of every pixel (K06, section 2.2).
-[[nodiscard]] graph::Buffer<transport::LayerStatistics> measureComplexity(
-    FrameBuilder& frame, Geometry geometry, const LayersRequest& request);
-// Adds the passes of a layered depth image without a pyramid.
+// Adds the passes of a layered depth image without a pyramid; without statistics where there is one
+// layer and nobody asks for them.
 [[nodiscard]] LayeredDepth peel(FrameBuilder& frame, Geometry geometry,
                                 const LayersRequest& request);
 

@@ -22,6 +22,9 @@ struct Peeling {
     graph::Texture<DepthBuffer> depth;
     graph::Buffer<DrawCommandWords> commands;  // of all objects, once a layer, and a blank triangle
     Geometry geometry;
+    // Fragments of each pixel, of one view: where it is valid a shader has stored where each
+    // pixel's layers end (LayeredDepth), and no layer is cleared.
+    graph::Texture<CountTexel> counts;
     // Targets are cleared by the blank triangle, where that is drawn at all: whether there is
     // anything to peel is known to the device alone.
     bool isConditional = false;
@@ -31,7 +34,7 @@ struct Peeling {
                           const LayersRequest& request);
 };
 // Draws the layers of one view, each beyond the one before it, those that `commands` do not leave
-// out; the others are cleared.
+// out; the others are cleared, where no counts say how far a pixel's layers go.
 void peelView(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext& context,
               const LayersRequest& request, int face);
 

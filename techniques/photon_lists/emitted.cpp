@@ -36,12 +36,27 @@ void beginEmission(gl::PassContext& context, const Photons& photons, const Sampl
     if (!samples.cells.valid()) fillList(context, photons);
 }
 
+namespace {
+
+std::vector<graph::ResourceRef> texturesOf(const Hits& hits) {
+    std::vector<graph::ResourceRef> all = hits.incoming.textures();
+    const std::vector<graph::ResourceRef> ofHits = hits.textures();
+    all.insert(all.end(), ofHits.begin(), ofHits.end());
+    if (hits.incoming.extents.valid()) all.push_back(hits.incoming.extents);
+    return all;
+}
+
+}  // namespace
+
+bool isAnyKept(const gl::PassContext& context, const Hits& hits) {
+    const std::vector<graph::ResourceRef> all = texturesOf(hits);
+    return std::any_of(all.begin(), all.end(),
+                       [&](const graph::ResourceRef& texture) { return context.isKept(texture); });
+}
+
 void clearEmitted(gl::PassContext& context, const Hits& hits) {
-    for (const std::vector<graph::ResourceRef>& textures :
-         {hits.incoming.textures(), hits.textures()}) {
-        for (const graph::ResourceRef& texture : textures)
-            context.texture(texture).clear({0, 0, 0, 0});
-    }
+    for (const graph::ResourceRef& texture : texturesOf(hits))
+        context.texture(texture).clear({0, 0, 0, 0});
 }
 
 }  // namespace kaustik

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // view.bvh: what the eye sees through specular surfaces, by exact rays: through the hierarchy of
 // the scene on the device (framework/transport/bvh.h), or the processor's (traced_paths.h). In: eye
-// buffer, radiance of the receivers; out: radiance, W/m²/sr, and where each ray left for good, view
-// space, m. Receivers that the picture does not show are lit by their own shadow rays; caustics are
-// seen where the picture has them.
+// buffer, radiance of the receivers; out: radiance, W/m²/sr, how each ray ended, and, where
+// somebody asks for it, where it left for good, view space, m. Receivers that the picture does not
+// show are lit by their own shadow rays; caustics are seen where the picture has them.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -59,10 +59,12 @@ View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geomet
                             gl::Command command = context.compute(name);
                             sample.tell(command);
                             command.image("viewRadiance", pass.view.seen.radiance);
-                            if (sample.isMiddle()) {
-                                command.image("viewExitPosition", pass.view.seen.exitPosition)
-                                    .image("viewExitDirection", pass.view.seen.exitDirection);
-                            }
+                            if (!sample.isMiddle()) return command;
+                            command.image("viewPathEnding", pass.view.seen.ending);
+                            if (!storesExits(context, pass.view.seen)) return command;
+                            command.define("EXITS")
+                                .image("viewExitPosition", pass.view.seen.exitPosition)
+                                .image("viewExitDirection", pass.view.seen.exitDirection);
                             return command;
                         };
                         const auto shaderOfPaths = [&](const char* name) {

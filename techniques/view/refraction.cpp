@@ -90,15 +90,20 @@ int neededLayers(const RefractionViewParams& params) {
     return isMonotonic ? std::min(params.layers, params.interfaces) : params.layers;
 }
 
+// Whether there may be interfaces in layers behind the last one: fewer layers than interfaces to be
+// hit in them.
+bool asksForLayers(const RefractionViewParams& params) {
+    return params.search != RefractionSearch::monotonic || params.layers < params.interfaces;
+}
+
 void reportLimits(FrameBuilder& frame, const RefractionViewParams& params,
                   const LayeredDepth& layers, const View& seen) {
     reportDielectricLimits(frame, "view.refraction", seen, params.interfaces, params.reflections);
     reportLostRays(frame, "view.refraction", seen,
                    "no way out of the object that they are in was found; its surface has a hole "
                    "there, is off the screen, or lies beyond view.refraction.layers");
-    // Fewer layers than there are interfaces to be hit in them.
+    if (!asksForLayers(params)) return;
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
-    if (isMonotonic && params.layers >= params.interfaces) return;
     frame.reportLimit(
         {"view.refraction",
          {layers.statistics},
@@ -135,6 +140,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                                  {.name = "view.layers",
                                   .set = render::DrawSet::dielectrics,
                                   .layers = neededLayers(params),
+                                  .countsFragments = asksForLayers(params),
                                   .reader = "the eye's rays need"});
     } else {
         frame.skip("view.layers", "the scene has no dielectric");

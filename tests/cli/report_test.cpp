@@ -230,6 +230,8 @@ TEST_F(Report, TimeStepMovesTheAnimationFromFrameToFrame) {
         runAt("out", {"--frames", "3", "--warmup", "2", "--time", "1", "--time-step", "0.25"});
     EXPECT_EQ(report().at("time_s"), 1.5);
     EXPECT_EQ(report().at("time_step_s"), 0.25);
+    EXPECT_EQ(keysOf(report().at("between_frames_ms")), kStatistics);
+    EXPECT_GT(report().at("between_frames_ms").at("min").get<double>(), 0.0);
     EXPECT_TRUE(stepped == runAt("then", {"--frames", "1", "--time", "1.5"}));
     EXPECT_FALSE(stepped == runAt("before", {"--frames", "1", "--time", "1"}));
     const Outcome still = run({"run", "ring", "--size", "32x24", "--set", "photons=8x8", "--frames",

@@ -15,6 +15,9 @@ layout(std430) readonly buffer Photons {
     PhotonList photons;
 };
 
+// Of a texel without a photon nothing else may be asked for (techniques/photon_lists/emitted.h).
+uint fateAt(ivec2 texel) { return uint(texelFetch(photonDirection, texel, 0).w); }
+
 // What colours do, and how much dielectrics bend, is what they do to this photon from here on.
 Photon photonAt(ivec2 texel) {
     takeBandOf(texelFetch(photonOrigin, texel, 0).y & 0xffffu);

@@ -2,10 +2,7 @@
 // What the eye sees through bodies in image space: what its ray meets first, and what it sees
 // beyond them. How it goes through them says whoever includes this: goThroughBodies.
 #include "include/views/scene_look.glsl"
-
-layout(location = 0) out vec4 radiance;
-layout(location = 1) out vec4 exitPosition;
-layout(location = 2) out vec4 exitDirection;
+#include "include/views/view_outputs.glsl"
 
 #ifdef DIELECTRICS
 // A ray of the eye that has been refracted, or totally reflected, at the first interface.
@@ -80,5 +77,5 @@ void look(ivec2 pixel) {
 
 void main() {
     look(ivec2(gl_FragCoord.xy));
-    weigh(radiance);
+    finishPixel();
 }

@@ -11,6 +11,7 @@
 
 #include "framework/core/error.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/scene/files/scene_file.h"
 #include "framework/transport/watts.h"
 #include "tests/gpu/fixture.h"
 
@@ -182,6 +183,39 @@ TEST(GridSight, IsTheSameDrawnAndTraced) {
             }
             EXPECT_GT(largest, 0.0);
             EXPECT_LT(others, drawn.size() / 100) << light << " " << batch;
+        }
+    }
+}
+
+// Nobody keeps the photons and memory starts as NaN: of a cell without one no more is stored than
+// that there is none. Photons that are kept are cleared.
+TEST(EmittedPhotons, OfACellWithoutAPhotonNobodyReadsMoreThanThat) {
+    for (const char* name : {"pool", "cornell-bunny"}) {
+        const scene::Scene scene = scene::loadScene(name);
+        for (const char* technique :
+             {"exact_rays", "screen_space_photons", "caustic_map", "caustic_triangles",
+              "multi_resolution", "lens_splats", "eye_gather", "planar"}) {
+            const auto render = [&](const std::string& sight,
+                                    const std::vector<std::string>& kept) {
+                return Frame(scene, 64, 48, {{"emit.photons", "48x48"}, {"emit.grid.sight", sight}},
+                             kept, true, technique);
+            };
+            for (const std::string& sight : sights()) {
+                const Frame cleared = render(sight, {"photons.position"});
+                const Frame read = render(sight, {});
+                for (const bool isCaustic : {true, false}) {
+                    const auto outputOf = [&](const Frame& frame) {
+                        const FrameOutputs& outputs = frame.renderer().outputs();
+                        return isCaustic ? frame.read(outputs.caustic.irradiance)
+                                         : frame.read(outputs.picture.radiance);
+                    };
+                    const Texels expected = outputOf(cleared);
+                    EXPECT_GT(expected.sum(), 0.0) << name << ", " << technique;
+                    EXPECT_EQ(outputOf(read).values, expected.values) << name << ", " << technique;
+                }
+                EXPECT_EQ(read.renderer().ledger().watts, cleared.renderer().ledger().watts)
+                    << name << ", " << technique;
+            }
         }
     }
 }

@@ -304,7 +304,7 @@ position = [0, 0, 3]
 }
 
 // What is made of the layers, where nobody keeps them and memory starts as NaN: who reads one that
-// a pixel does not have takes that for a surface.
+// a pixel does not have takes that for a surface. Layers that are kept are cleared.
 TEST(FragmentLists, AreReadNoFartherThanThePixelsLayersGo) {
     struct Reader {
         std::string technique;
@@ -331,21 +331,31 @@ TEST(FragmentLists, AreReadNoFartherThanThePixelsLayersGo) {
                          << (reader.settings.empty() ? ""
                                                      : reader.settings.front().first + "=" +
                                                            reader.settings.front().second));
-            const auto render = [&](const char* layers) {
+            const auto render = [&](const char* layers, const std::vector<std::string>& kept) {
                 return Frame(scene, 93, 61,
-                             with(photons, with(reader.settings, {{"layers", layers}})), {}, true,
+                             with(photons, with(reader.settings, {{"layers", layers}})), kept, true,
                              reader.technique);
             };
-            const Frame peeled = render("peel");
-            const Frame listed = render("lists");
-            const FrameOutputs& left = peeled.renderer().outputs();
-            const FrameOutputs& right = listed.renderer().outputs();
-            EXPECT_GT(listed.causticIrradiance().sum(), 0.0);
-            EXPECT_EQ(
-                differences(peeled, listed, left.caustic.irradiance, right.caustic.irradiance, 1),
-                0u);
-            EXPECT_EQ(differences(peeled, listed, left.picture.radiance, right.picture.radiance, 1),
-                      0u);
+            const bool isOfScreen = reader.technique == ownTechnique;
+            const Frame cleared = render(
+                "peel", isOfScreen
+                            ? std::vector<std::string>{"layers.depth", "layers.surface",
+                                                       "view.layers.depth", "view.layers.surface"}
+                            : std::vector<std::string>{});
+            EXPECT_GT(cleared.causticIrradiance().sum(), 0.0);
+            for (const char* node : {"peel", "lists"}) {
+                const Frame read = render(node, {});
+                const FrameOutputs& left = cleared.renderer().outputs();
+                const FrameOutputs& right = read.renderer().outputs();
+                EXPECT_EQ(differences(cleared, read, left.caustic.irradiance,
+                                      right.caustic.irradiance, 1),
+                          0u)
+                    << node;
+                EXPECT_EQ(
+                    differences(cleared, read, left.picture.radiance, right.picture.radiance, 1),
+                    0u)
+                    << node;
+            }
         }
     }
 }
