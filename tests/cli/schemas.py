@@ -252,7 +252,7 @@ class ExperimentFiles(Asks):
 
 class Reports(Asks):
     # What only a run of another kind, or with other numbers, says.
-    ELSEWHERE = re.compile(r"\$schema|cells|ended_early.*|map\.maps\.(generator|cascade)|.*reasons|limits\..*|"
+    ELSEWHERE = re.compile(r"\$schema|between_frames_ms|cells|ended_early.*|map\.maps\.(generator|cascade)|.*reasons|limits\..*|"
                            r"energy\.lost_w\..*|error\.flicker|error\.view\..*|.*\.image_m|"
                            r".*\.reference_m")
 
