@@ -231,8 +231,11 @@ void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const Vie
             command.target(pass.seen.radiance);
             if (sample.isMiddle()) {
                 command.target(pass.seen.ending);
-                if (storesExits(context, pass.seen))
-                    command.target(pass.seen.exitPosition).target(pass.seen.exitDirection);
+                if (storesExits(context, pass.seen)) {
+                    command.define("EXITS")
+                        .target(pass.seen.exitPosition)
+                        .target(pass.seen.exitDirection);
+                }
             } else {
                 command.blend(gl::Blend::add);
             }
