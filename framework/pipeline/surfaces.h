@@ -42,7 +42,7 @@ struct LayeredDepth {
     graph::Texture<LayerTexel> depth;      // array, one layer a surface
     graph::Texture<SurfaceTexel> surface;  // array
     graph::Texture<SquarePlane> pyramid;   // array; planes of the layers over squares of pixels
-    graph::Buffer<transport::LayerStatistics> statistics;
+    graph::Buffer<transport::LayerStatistics> statistics;  // invalid where nobody asks for them
     int layers = 0;
     Views views;
     std::optional<ScreenTile> tile = {};  // of the screen, beyond whose border they are empty

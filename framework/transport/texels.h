@@ -101,8 +101,8 @@ struct DisplayTexel {  // rgb: display-encoded (sRGB), [0,1]
 struct VisibilityTexel {  // x: share of a light's direct light that reaches the receiver, [0, 1]
     static constexpr Format format = Format::r32f;
 };
-// x: how the middle of the pixel's ray has gone through specular surfaces, kPath… + kPathMet; 0: it
-// met none.
+// x: how the path of the ray through the pixel's middle has ended, kPath… + kPathMet; 0: it met no
+// specular surface.
 struct PathEnding {
     static constexpr Format format = Format::r32f;
 };
