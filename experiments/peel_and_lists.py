@@ -9,7 +9,6 @@ over pixels, and what layers=auto takes by that; × where the other one is faste
 """
 
 import argparse
-import csv
 import json
 import pathlib
 import statistics
@@ -17,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-from two_builds import SCENES
+from two_builds import SCENES, rows_of_others, write_rows
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SIZES = {"400×300": ("400x300", 3), "1600×1200": ("1600x1200", 2)}
@@ -75,17 +74,11 @@ def main() -> None:
     parser.add_argument("--csv", type=pathlib.Path, default=ROOT / "results/layers/peel_and_lists.csv")
     parser.add_argument("--scenes", nargs="+", default=SCENES, metavar="NAME")
     arguments = parser.parse_args()
-    rows = {}
-    if arguments.csv.exists():
-        with arguments.csv.open(encoding="utf-8", newline="") as file:
-            rows = {row["scene"]: row for row in csv.DictReader(file)}
+    rows = rows_of_others(arguments.csv, arguments.scenes)
     for scene in arguments.scenes:
-        rows[scene] = row_of(scene)
-        print({name: rows[scene].get(name) for name in COLUMNS if name not in ("command", "device", "version", "seed")}, flush=True)
-        with arguments.csv.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows[name] for name in sorted(rows))
+        rows.append(row_of(scene))
+        print(scene, *(rows[-1][name] for name in ("peel", "lists", "share", "peel (2)", "lists (2)", "share (2)")), flush=True)
+        write_rows(arguments.csv, COLUMNS, rows)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "framework/core/elapsed.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/gl/program_store.h"
@@ -153,10 +154,6 @@ void allowCompilerThreads() {
 }
 
 using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 // Every identifier of `text`, to tell a misspelt uniform from one that was optimised away.
 void insertWords(const std::string& text, std::unordered_set<std::string>& words) {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "framework/core/elapsed.h"
 #include "framework/core/error.h"
 #include "framework/core/names.h"
 #include "framework/pipeline/photon_texels.h"
@@ -271,8 +272,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     nodeWarnings_.clear();
     if (purpose == Purpose::measurement || purpose == Purpose::audit)
         compiled = keepFindings(compiled, frame);
-    buildMilliseconds_ =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    buildMilliseconds_ = millisecondsSince(begin);
     keptObjects_ = frame.releaseKeptObjects();
     warnings_ = frame.warnings();
     for (const std::string& name : settings_.params.setByUser()) {

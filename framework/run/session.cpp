@@ -10,6 +10,7 @@
 #include <iterator>
 #include <utility>
 
+#include "framework/core/elapsed.h"
 #include "framework/core/error.h"
 #include "framework/core/machine.h"
 #include "framework/pipeline/stage_params.h"
@@ -43,11 +44,6 @@ scene::Scene& withLightPoints(scene::Scene& scene, const RenderSettings& setting
 template <class T>
 void keepLast(std::vector<T>& all, std::size_t count) {
     if (all.size() > count) all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(count));
-}
-
-double millisecondsSince(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-        .count();
 }
 
 }  // namespace
