@@ -50,6 +50,7 @@ TABLE = {
     "lamps": "lamps/runs.csv",
     "lamps_widened": "lamps/widened.csv",
     "soft_and_colored": "lamps/soft_and_colored.csv",
+    "krueger2006_god_rays": "krueger2006/god_rays.csv",
     "krueger2006_refracted_scene": "krueger2006/refracted_scene.csv",
     "normal_maps": "normal_maps/runs.csv",
     "refined": "refined/runs.csv",
@@ -64,7 +65,6 @@ TABLE = {
 RUNS = {
     "equal_error": "reconstructions/equal_error.csv",
     "krueger2006_caustics": "krueger2006/caustics.csv",
-    "krueger2006_god_rays": "krueger2006/god_rays.csv",
     "krueger2006_needs": "krueger2006/needs.csv",
     "krueger2006_photons": "krueger2006/photons.csv",
     "krueger2006_refraction": "krueger2006/refraction.csv",
@@ -90,6 +90,9 @@ DEVICE = {"device_errors": "device/errors.csv", "device_times": "device/times.cs
 # Their tables need reports or pictures too: where their CSVs are not enough, they are kept as printed, next to them.
 PRINTED = ("umenhoffer2008_grazing", "umenhoffer2008_merge", "umenhoffer2008_reach", "wyman2008_ringing", "wyman2008_times",
            *(f"wyman_nichols2009_{name}" for name in ("batches", "cascades", "deferred", "photons", "starts", "times")))
+
+# Whose tables say where the eye's rays go; other files of all of runs.csv are without that.
+OF_THE_VIEW = ("krueger2006_refraction",)
 
 SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
@@ -165,14 +168,16 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
         print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
 
 
-def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False) -> None:
+def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_the_view: bool = True) -> None:
     """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small. `keep`: with the rows that the
-    file has of other runs."""
+    file has of other runs. Without `of_the_view` errors of what the eye sees are left out too."""
+    left_out = (".formulas.",) if of_the_view else (".formulas.", "error.view.")
     csv.field_size_limit(sys.maxsize)
     with runs.open(newline="") as stream:
         reader = csv.DictReader(stream)
         rows = list(reader)
-    columns, kept = [name for name in reader.fieldnames if ".formulas." not in name and name not in ("folder", "hash")], []
+    columns = [name for name in reader.fieldnames if not any(part in name for part in left_out) and name not in ("folder", "hash")]
+    kept = []
     if keep and target.is_file():
         with target.open(newline="", encoding="utf-8") as stream:
             before = list(csv.DictReader(stream))
@@ -183,7 +188,7 @@ def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False) -> 
         devices = {device_of(row) for row in [*kept, *rows] if row.get("status") == "done"}
         if len(devices) > 1:  # its program compares times of all rows
             raise Failure(f"'{target}' would have times of {len(devices)} models of devices, {' and '.join(sorted(devices))}; make it anew as a whole, without --only")
-        columns += [name for name in (before[0] if before else {}) if name not in columns]
+        columns += [name for name in (before[0] if before else {}) if name not in columns and not any(part in name for part in left_out)]
     with target.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(columns)
@@ -202,7 +207,7 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path, keep: bool =
     elif study in PARTS:
         call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent, *(["--keep"] if keep else []))
     else:
-        write_slim(results / "runs.csv", target, keep)
+        write_slim(results / "runs.csv", target, keep, study in OF_THE_VIEW)
 
 
 def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:

@@ -8,7 +8,7 @@ RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints 
 same columns, with five digits; with --keep what FILE has of runs that RESULTS lacks stays as it is. Errors of the caustic are against all light, but those named "modelled", which are
 against the paths that the run's photons can take; "not formed" is the light of all others; "too bright" and "too dark" are the shares of
 pixels that are so, against those paths, by more than the reference's noise. "reference's own" is what its noise alone
-would give. ms: of all passes of the caustic, from emission to gather; media ms: of these, of light that a medium
+would give. "scattered" is the radiance that a medium scatters to the eye, against the modelled paths, RMSE in W/m²/sr. ms: of all passes of the caustic, from emission to gather; media ms: of these, of light that a medium
 scatters; and of what the eye sees through specular surfaces (view); their spread is that of whole frames, as a share. A run that failed has its message instead.
 """
 
@@ -25,6 +25,7 @@ CAUSTIC = ("geometry.", "driver.", "emit.", "refine.", "around.", "generator.", 
 ERROR = "error.caustic_irradiance."
 MODELLED = "error.modelled_paths.caustic_irradiance."
 VIEW = "error.view.radiance."
+SCATTERED = "error.modelled_paths.in_scattered."
 
 
 # What a page says of its runs (pages.py).
@@ -108,6 +109,9 @@ MEASURED = [
     ("view energy", ".3f", lambda row: number(row, VIEW + "energy_ratio")),
     ("view interfaces right", ".4f", lambda row: number(row, "error.view.interfaces_right")),
     ("view lost", ".4f", lambda row: number(row, "error.view.lost")),
+    ("scattered RMSE", ".3f", lambda row: number(row, SCATTERED + "rmse")),
+    ("scattered energy", ".3f", lambda row: number(row, SCATTERED + "energy_ratio")),
+    ("scattered RMSE, reference's own", ".3f", lambda row: number(row, SCATTERED + "truth_noise.rmse")),
     ("ms", ".0f", lambda row: timed(row, sum_of_passes(row, CAUSTIC))),
     ("media ms", ".0f", lambda row: timed(row, sum_of_passes(row, ("media.",)))),
     ("view ms", ".0f", lambda row: timed(row, sum_of_passes(row, ("view.",)))),

@@ -86,6 +86,15 @@ class Slim(unittest.TestCase):
             rebuild.write_slim(slim, slim)
             self.assertIn("2.8e-08", slim.read_text())
 
+    def test_leaves_errors_of_the_view_out_where_no_table_asks_for_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            runs, slim = pathlib.Path(folder) / "runs.csv", pathlib.Path(folder) / "slim.csv"
+            runs.write_text("seed,error.view.lost,error.caustic_irradiance.rmse\n1,0.5,0.25\n")
+            rebuild.write_slim(runs, slim, of_the_view=False)
+            self.assertEqual(slim.read_text(), "seed,error.caustic_irradiance.rmse\n1,0.25\n")
+            rebuild.write_slim(runs, slim)
+            self.assertIn("error.view.lost", slim.read_text())
+
 
 if __name__ == "__main__":
     unittest.main()
