@@ -171,13 +171,14 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
 def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_the_view: bool = True) -> None:
     """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small. `keep`: with the rows that the
     file has of other runs. Without `of_the_view` errors of what the eye sees are left out too."""
-    left_out = (".formulas.",) if of_the_view else (".formulas.", "error.view.")
+    def stays(name: str) -> bool:
+        return name not in ("folder", "hash") and ".formulas." not in name and (of_the_view or not name.startswith("error.view."))
+
     csv.field_size_limit(sys.maxsize)
     with runs.open(newline="") as stream:
         reader = csv.DictReader(stream)
         rows = list(reader)
-    columns = [name for name in reader.fieldnames if not any(part in name for part in left_out) and name not in ("folder", "hash")]
-    kept = []
+    columns, kept = [name for name in reader.fieldnames if stays(name)], []
     if keep and target.is_file():
         with target.open(newline="", encoding="utf-8") as stream:
             before = list(csv.DictReader(stream))
@@ -188,7 +189,7 @@ def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_
         devices = {device_of(row) for row in [*kept, *rows] if row.get("status") == "done"}
         if len(devices) > 1:  # its program compares times of all rows
             raise Failure(f"'{target}' would have times of {len(devices)} models of devices, {' and '.join(sorted(devices))}; make it anew as a whole, without --only")
-        columns += [name for name in (before[0] if before else {}) if name not in columns and not any(part in name for part in left_out)]
+        columns += [name for name in (before[0] if before else {}) if name not in columns and stays(name)]
     with target.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(columns)
