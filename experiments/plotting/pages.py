@@ -47,7 +47,7 @@ from views import PROVENANCE, PageError, cells_of, chosen, column, printed, reco
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Pages that a program writes as a whole.
-WRITTEN = ("numerics.md", "gallery.md", studies.PAGE)
+WRITTEN = ("numerics.md", studies.PAGE)
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
 # So many processors are busy on an idle machine too.
 BUSY = 0.2
