@@ -2,29 +2,35 @@
 # SPDX-License-Identifier: MIT
 """Speed against error over all techniques and scenes, against a light tracer on the same processor.
 
-    speed_error.py [--results results/all_techniques]
+    speed_error.py [--results results/all_techniques] [--in-turn results/all_techniques/in_turn.csv]
 
 Reads runs.csv (all_techniques.toml, by table.py --csv), light_tracer.csv (light_tracer.py) and, where it is there, best_mixtures.csv
 (best_mixtures.toml; its runs are called "best mixture") in that folder, all of one machine (another
 has a folder of its own; pages.py puts tables of several next to each other), and writes next to them
 
 - equal_error.csv: each run, and how many photons and ms the light tracer needs for the same relMSE; `factor` is by how much the run is
-  faster. Both errors are net of the reference's own noise. The light tracer's error falls as one over its photons, and its time grows
+  faster, `low` and `high` its interval of one standard deviation (speed_curves.py says what it is made of). Both errors are net of the reference's own noise. The light
+  tracer's error falls as one over its photons, and its time grows
   with them: both are taken from its run with the most photons, the time less that of the run with the fewest. Where a run's
   error is not above the reference's noise the factor is a bound: `at_least`.
 - to_error.csv: for each scene and error, the technique that is there first, its ms, interpolated between its runs in the logarithms of
-  both, the second and by how much it is later.
-- in_time.csv: the same the other way round: the least error within a time.
+  both, the second and by how much it is later, both with their intervals. `at_most`: its run with the fewest photons is there already. `disturbed`: of a run whose frames differed much.
+- in_time.csv: the same the other way round: the least error within a time. `at_most`: its run with the most photons takes less.
+- one_second.csv: for each scene the error that the light tracer has after one second, and whether and when the default has it with as many photons as it likes; `part`: the default's least error over that one.
+- photon_mapping.csv: the default's runs, and how long progressive photon mapping takes to their error; `bound`: its runs end before (`≥`).
+- uncertainty.csv: what the intervals are made of, and the times of the study over those in turn, whose file is --in-turn; where that is of another device the intervals are without it.
 - costs.csv: what a photon costs each technique, and what all of them together do: the median over scenes of the slope between its runs with the
   fewest and the most photons, of time (also the least and the most) and memory, and of what is left at none; and the light that it does not form, on the scene where
   that is most.
 - published.csv: what defaults change of each technique as published, with as many photons: the default's time and error as parts of the
   published ones and the gain in `factor`, medians over scenes with the least and the largest, and the scenes of these gains.
-- SCENE.svg: error against time, the Pareto front drawn through; bars are the standard deviation of a run's frames, and below the shaded height errors
-  are less than the reference's own noise.
+- SCENE.svg: error against time, the Pareto front drawn through; bars are the standard deviation of a run's frames, bands the
+  intervals of what a user would pick instead, and below the shaded height errors
+  are less than the reference's own noise. A circle: a disturbed run.
 - headline.svg: all scenes: the factors of equal_error.csv, of each technique's runs by default the one with the middle number of photons.
 - answers.csv: the same as a table: for each scene the default's factor, and the technique with the largest.
-- summary.csv: on how many scenes the default, and the best, are faster than the light tracer, and the least, the median and the largest factor.
+- summary.csv: on how many scenes the default, and the best, are faster than the light tracer, and the least, the median and the largest factor; on how many the interval too is above or below one.
+  So too the default over photon mapping (bounds as they are), and over the best mixture, at each number of photons.
 """
 
 import argparse
@@ -37,38 +43,19 @@ from collections import defaultdict
 
 import drawings
 from figures import COLORS, MARKERS, pareto_front, plt
-from study import require_one_device
+from speed_curves import (DEFAULT, LIGHT_TRACER, MIDDLE, MIXTURE, PHOTON_MAPPING, RANKED, LightTracer, Point, Spreads, curves, found_on, frames_spread, is_disturbed, least,  # noqa: F401
+                          light_tracers, net, number, points_of, ranked, rows_of)
+from study import device_of, require_one_device
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ERRORS = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4]
-# What a user would pick instead: no techniques of ours, and no part of the front that is drawn.
-LIGHT_TRACER, PHOTON_MAPPING = "light tracer", "progressive photon mapping"
 BASELINES = {LIGHT_TRACER: ":", PHOTON_MAPPING: "-."}
-DEFAULT, MIXTURE = "exact_rays", "best mixture"
-MIDDLE = {"256x256", "1024"}  # photons along each side of the grid, or the finest cells
 LEAST_FACTOR = 1e-4  # that is drawn
 TIMES_MS = [50, 100, 200, 500, 1000, 2000]
 
 
 def inputs(folder: pathlib.Path) -> list[pathlib.Path]:
     return [folder / name for name in drawings.DRAWN["all_techniques"][0]]
-
-
-def rows_of(file: pathlib.Path) -> list[dict]:
-    if not file.is_file():
-        sys.exit(f"speed_error: there is no '{file}'")
-    with file.open(newline="") as stream:
-        return list(csv.DictReader(stream))
-
-
-def number(row: dict, key: str) -> float | None:
-    return float(row[key]) if row.get(key) else None
-
-
-def net(row: dict) -> float | None:
-    """relMSE without the part that the reference's own noise has in it."""
-    error, noise = number(row, "relMSE"), number(row, "relMSE, reference's own")
-    return None if error is None else error - (noise or 0.0)
 
 
 OF_THE_RUNS = ("device", "version", "date")
@@ -81,67 +68,9 @@ def of_the_runs(runs: list[dict]) -> list[str]:
         max((row["date"] for row in done if row.get("date")), default="")]
 
 
-def name_of(row: dict) -> str:
-    return row["technique"] + (", as published" if row.get("as_published") == "true" else "")
-
-
-class LightTracer:
-    """Its error and time at any number of photons, of one scene."""
-
-    def __init__(self, rows: list[dict]):
-        rows = sorted(rows, key=lambda row: float(row["photons"]))
-        few, many = rows[0], rows[-1]
-        photons = float(many["photons"])
-        if photons == float(few["photons"]):
-            sys.exit(f"speed_error: the light tracer has run with {photons:.0f} photons alone on '{many['scene']}', which does "
-                     "not say what one costs; light_tracer.py --photons takes several")
-        self.error_times_photons = net(many) * photons
-        self.ms_a_photon = 1e3 * (float(many["seconds"]) - float(few["seconds"])) / (photons - float(few["photons"]))
-
-    def photons(self, error: float) -> float:
-        return self.error_times_photons / error
-
-    def ms(self, error: float) -> float:
-        return self.photons(error) * self.ms_a_photon
-
-    def error(self, ms: float) -> float:
-        return self.error_times_photons * self.ms_a_photon / ms
-
-
-def light_tracers(rows: list[dict]) -> dict[str, LightTracer]:
-    by_scene = defaultdict(list)
-    for row in rows:
-        if row["estimator"] == "light" and number(row, "relMSE") is not None:
-            by_scene[row["scene"]].append(row)
-    return {scene: LightTracer(of) for scene, of in by_scene.items()}
-
-
-def least(points: list[tuple[float, float]], at: float) -> float | None:
-    """The least second of points (first, second) whose first is `at` or less, or which lie between two that are neighbours in the
-    first, in the logarithms of both; None where all are beyond it."""
-    points = sorted(points)
-    found = [y for x, y in points if x <= at]
-    for (x0, y0), (x1, y1) in zip(points, points[1:]):
-        if x0 < at < x1:
-            found.append(y0 * (y1 / y0) ** (math.log(at / x0) / math.log(x1 / x0)))
-    return min(found, default=None)
-
-
-def curves(runs: list[dict], baselines: list[dict]) -> dict[str, dict[str, list[tuple[float, float]]]]:
-    """Points (ms, net relMSE) by scene and technique, sorted by time; of the baselines too."""
-    of: dict = defaultdict(lambda: defaultdict(list))
-    for row in runs:
-        error, ms = net(row), number(row, "ms")
-        if row["status"] == "done" and error and error > 0.0 and ms:
-            of[row["scene"]][name_of(row)].append((ms, error))
-    for scene, tracer in light_tracers(baselines).items():
-        if scene in of:
-            of[scene][LIGHT_TRACER] = [(ms, tracer.error(ms)) for ms in (0.1, 1, 10, 100, 1000, 10000)]
-    for row in baselines:
-        error = net(row)
-        if row["estimator"] == "sppm" and row["scene"] in of and error and error > 0.0:
-            of[row["scene"]][PHOTON_MAPPING].append((1e3 * float(row["seconds"]), error))
-    return {scene: {name: sorted(points) for name, points in by.items()} for scene, by in of.items()}
+def interval(value: float, *sds: float) -> list[float]:
+    """One standard deviation down and up, of logarithms that have these ones."""
+    return [value * math.exp(sign * math.hypot(*sds)) for sign in (-1.0, 1.0)]
 
 
 def write(file: pathlib.Path, columns: list[str], rows: list[list]) -> None:
@@ -153,11 +82,11 @@ def write(file: pathlib.Path, columns: list[str], rows: list[list]) -> None:
 
 
 EQUAL_ERROR = ("scene", "technique", "as_published", "emit.photons", "refine.finest", "status", "ms", "relMSE, net",
-               "light tracer's photons", "light tracer's ms", "factor", "at_least", *OF_THE_RUNS)
+               "light tracer's photons", "light tracer's ms", "factor", "low", "high", "at_least", *OF_THE_RUNS)
 
 
-def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[dict]:
-    """Rows of EQUAL_ERROR, and `order`: the photons, or what stands for them."""
+def equal_error(runs: list[dict], tracers: dict[str, LightTracer], spreads: Spreads) -> list[dict]:
+    """Rows of EQUAL_ERROR, and `order`: the photons, or what stands for them, `sd` of its time, and whether it was disturbed."""
     table = []
     for row in runs:
         error, ms, tracer = net(row), number(row, "ms"), tracers.get(row["scene"])
@@ -167,9 +96,10 @@ def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[dict]
         reached = max(error, noise)
         key, size = varied(row)
         sizes = [size if key == column else "" for column in ("emit.photons", "refine.finest")]
+        factor, sd = tracer.ms(reached) / ms, spreads.of_run(row)
         values = (row["scene"], row["technique"], row["as_published"], *sizes, "done", ms, error, tracer.photons(reached),
-                  tracer.ms(reached), tracer.ms(reached) / ms, str(error < noise).lower(), *(row.get(key, "") for key in OF_THE_RUNS))
-        table.append({**dict(zip(EQUAL_ERROR, values)), "order": int(size.split("x")[0] or 0)})
+                  tracer.ms(reached), factor, *interval(factor, sd, spreads.of_tracer), str(error < noise).lower(), *(row.get(key, "") for key in OF_THE_RUNS))
+        table.append({**dict(zip(EQUAL_ERROR, values)), "order": int(size.split("x")[0] or 0), "sd": sd, "disturbed": is_disturbed(row)})
     return table
 
 
@@ -197,26 +127,102 @@ def middle_runs(table: list[dict]) -> dict[str, dict[str, dict]]:
     return {scene: {name: chosen(rows) for name, rows in of.items()} for scene, of in by.items()}
 
 
-def answers(middle: dict[str, dict[str, dict]]) -> list[list]:
+OF_ONE = ("ms", "relMSE, net", "light tracer's ms", "factor", "low", "high", "at_least", "disturbed")
+ANSWERS = ("scene", "status", *("default's " * (key in OF_ONE[:2]) + key for key in OF_ONE), "best", *(f"best's {key}" for key in OF_ONE if key != "light tracer's ms"))
+
+
+def answers(middle: dict[str, dict[str, dict]]) -> list[dict]:
     table = []
     for scene, of in sorted(middle.items()):
-        best = max(of.values(), key=lambda row: row["factor"])
-        own = of.get(DEFAULT)
-        table.append([scene, "done", *([own["ms"], own["relMSE, net"], own["light tracer's ms"], own["factor"], own["at_least"]] if own
-                                       else [None] * 5),
-                      best["technique"], best["ms"], best["relMSE, net"], best["factor"], best["at_least"]])
+        best, own = max(of.values(), key=lambda row: row["factor"]), of.get(DEFAULT)
+        bests = [best[key] for key in OF_ONE if key != "light tracer's ms"]
+        cells = [scene, "done", *([own[key] for key in OF_ONE] if own else [None] * len(OF_ONE)), best["technique"], *bests]
+        table.append(dict(zip(ANSWERS, (str(cell).lower() if isinstance(cell, bool) else cell for cell in cells))))
     return table
 
 
-def summary(table: list[list]) -> list[list]:
-    """Of the rows of answers."""
+SUMMARY = ["who", "status", "scenes", "faster", "slower", "least", "median", "largest", "clearly faster", "clearly slower"]
+
+
+def summed(who: str, factors: list[tuple[float, float, float]]) -> list[list]:
+    """A row of SUMMARY of factors with their intervals; none of none."""
+    values = [factor for factor, _, _ in factors]
+    return [[who, "done", len(values), sum(value > 1.0 for value in values), sum(value <= 1.0 for value in values), min(values), statistics.median(values), max(values),
+             sum(low > 1.0 for _, low, _ in factors), sum(high < 1.0 for _, _, high in factors)]] if values else []
+
+
+def summary(table: list[dict], mapping: list[dict], equal: list[dict]) -> list[list]:
+    """Of the rows of answers, of photon_mapping and of equal_error."""
     rows = []
-    for who, column in (("default", 5), ("best", 10)):
-        factors = [row[column] for row in table if row[column] is not None]
-        if factors:
-            rows.append([who, "done", len(factors), sum(factor > 1.0 for factor in factors), sum(factor <= 1.0 for factor in factors),
-                         min(factors), statistics.median(factors), max(factors)])
+    for who, of in (("default", ""), ("best", "best's ")):
+        rows += summed(who, [tuple(row[of + key] for key in ("factor", "low", "high")) for row in table if row[of + "factor"] is not None])
+    rows += summed("default over photon mapping", [tuple(row[key] for key in ("factor", "low", "high")) for row in mapping if row["emit.photons"] in MIDDLE])
+    default = {(row["scene"], row["emit.photons"]): row for row in equal if row["technique"] == DEFAULT and row["as_published"] == "false"}
+    pairs = [(own, row) for row in equal if row["technique"] == MIXTURE and (own := default.get((row["scene"], row["emit.photons"])))]
+    # The light tracer is in both factors.
+    ratios = [(own["factor"] / row["factor"], own["sd"], row["sd"]) for own, row in pairs]
+    return rows + summed("default over best mixture", [(ratio[0], *interval(*ratio)) for ratio in ratios])
+
+
+ONE_SECOND = ("scene", "status", "relMSE", "default's least relMSE", "emit.photons", "ms", "part", "reached", "ms to it", "low", "high", "at_most", "times", "times low", "times high",
+              "first", "first's ms")
+
+
+def one_second(equal: list[dict], tracers: dict[str, LightTracer], of_scenes: dict[str, dict[str, list[Point]]], spreads: Spreads) -> list[dict]:
+    """Rows of ONE_SECOND: by scene the light tracer's error after a second, the default's least, and when it has the light tracer's."""
+    table = []
+    for scene, by in sorted(of_scenes.items()):
+        own = [row for row in equal if row["scene"] == scene and row["technique"] == DEFAULT and row["as_published"] == "false"]
+        if not own or scene not in tracers:
+            continue
+        target, lowest = tracers[scene].error(1e3), min(own, key=lambda row: row["relMSE, net"])
+        first = min(((found.value, name) for name, curve in by.items() if name not in BASELINES and (found := found_on(curve, target, by_error=True))), default=(None, "nothing"))
+        found = found_on(by[DEFAULT], target, by_error=True) if DEFAULT in by else None
+        times = [None] * 3
+        if found:
+            sds = [math.log(found.value / found.low) if found.low else 0.0, spreads.of_tracer]
+            times = [1e3 / found.value, *interval(1e3 / found.value, *sds)]
+        cells = [*found[:3], str(found.at_most).lower()] if found else [None, None, None, ""]
+        values = (scene, "done", target, lowest["relMSE, net"], lowest["emit.photons"], lowest["ms"], lowest["relMSE, net"] / target, str(found is not None).lower(), *cells, *times, *first[::-1])
+        table.append(dict(zip(ONE_SECOND, values)))
+    return table
+
+
+MAPPING = ("scene", "emit.photons", "status", "ms", "relMSE, net", "photon mapping's ms", "bound", "factor", "low", "high")
+
+
+def photon_mapping(equal: list[dict], of_scenes: dict[str, dict[str, list[Point]]]) -> list[dict]:
+    """Rows of MAPPING: each run of the default, and how long photon mapping takes to its error; `bound` where that is beyond its runs."""
+    table = []
+    for row in sorted(equal, key=lambda row: (row["scene"], row["order"])):
+        curve = of_scenes.get(row["scene"], {}).get(PHOTON_MAPPING)
+        if row["technique"] != DEFAULT or row["as_published"] == "true" or not curve:
+            continue
+        found = found_on(curve, row["relMSE, net"], by_error=True)
+        ms, bound = (found.value, "≤" if found.at_most else "") if found else (curve[-1].ms, "≥")
+        table.append(dict(zip(MAPPING, (row["scene"], row["emit.photons"], "done", row["ms"], row["relMSE, net"], ms, bound, ms / row["ms"],
+                                        *interval(ms / row["ms"], row["sd"], curve[-1].sd)))))
+    return table
+
+
+UNCERTAINTY = ["what", "status", "scenes", "standard deviation", "least", "median", "largest"]
+
+
+def uncertainty(spreads: Spreads) -> list[list]:
+    """Rows of UNCERTAINTY; of times at another hour also the study's over those, by scene."""
+    rows = []
+    for what, sd, ratios in (("default's time at another hour", spreads.drift, spreads.default_ratios), ("light tracer's time at another hour", spreads.tracer_drift, spreads.tracer_ratios)):
+        values = list(ratios.values())
+        rows.append([what, "done", len(values), sd, *([of(values) for of in (min, statistics.median, max)] if values else [None] * 3)])
+    for what, sd in (("light tracer's error", spreads.tracer_error), ("light tracer's time a photon", spreads.tracer_time), ("photon mapping's error", spreads.mapping_error),
+                     ("photon mapping's time", spreads.mapping_time)):
+        rows.append([what, "done", None, sd, *[None] * 3])
     return rows
+
+
+def ring(axes, x: float, y: float) -> None:
+    """Around a run that was disturbed."""
+    axes.plot(x, y, marker="o", markersize=9, fillstyle="none", markeredgecolor="#cc0000", markeredgewidth=0.8, linestyle="", zorder=4)
 
 
 def draw_headline(middle: dict[str, dict[str, dict]], file: pathlib.Path) -> None:
@@ -229,6 +235,10 @@ def draw_headline(middle: dict[str, dict[str, dict]], file: pathlib.Path) -> Non
                   color=COLORS[index % len(COLORS)], marker=MARKERS[(index + 3 * (index // len(COLORS))) % len(MARKERS)],
                   markersize=9 if name == DEFAULT else 5, zorder=3 if name == DEFAULT else 2)
         for row, place in rows:
+            if name == DEFAULT:
+                axes.plot([max(row[end], LEAST_FACTOR) for end in ("low", "high")], [place] * 2, color=COLORS[index % len(COLORS)], linewidth=1.2, zorder=2)
+            if row["disturbed"]:
+                ring(axes, max(row["factor"], LEAST_FACTOR), place)
             if row["at_least"] == "true":
                 axes.annotate("", (1.35 * max(row["factor"], LEAST_FACTOR), place), (max(row["factor"], LEAST_FACTOR), place),
                               arrowprops={"arrowstyle": "->", "color": COLORS[index % len(COLORS)], "linewidth": 0.8})
@@ -289,52 +299,41 @@ def published(equal: list[dict]) -> list[list]:
     return table
 
 
-def first_two(values: dict[str, float | None]) -> list:
-    """The name with the least value, the value, the second's name, and the ratio of the two."""
-    there = sorted((value, name) for name, value in values.items() if value is not None)
-    if not there:
-        return ["nothing", None, "", None]
-    second = there[1] if len(there) > 1 else (None, "")
-    return [there[0][1], there[0][0], second[1], second[0] / there[0][0] if second[0] else None]
-
-
-def ranked(of_scenes: dict, ats: list[float], by_error: bool) -> list[list]:
-    """For each scene and error (or time) who is there first (or has the least error)."""
-    return [[scene, f"{at:g}", "done", *first_two({name: least([point[::-1] if by_error else point for point in curve], at)
-                                                   for name, curve in by.items()})]
-            for scene, by in sorted(of_scenes.items()) for at in ats]
-
-
-def draw(scene: str, by: dict[str, list[tuple[float, float]]], runs: list[dict], file: pathlib.Path) -> None:
+def draw(scene: str, by: dict[str, list[Point]], runs: list[dict], file: pathlib.Path) -> None:
     figure, axes = plt.subplots(figsize=(6.4, 4.2))
     for row in runs:
-        error, ms, part = net(row), number(row, "ms"), number(row, "spread")
+        error, ms, part = net(row), number(row, "ms"), frames_spread(row)
         if row["scene"] == scene and row["status"] == "done" and error and error > 0.0 and ms and part:
             axes.errorbar(ms, error, xerr=min(part, 0.9) * ms, color="#777777", linewidth=0.6, zorder=1)
+            if is_disturbed(row):
+                ring(axes, ms, error)
     noise = [number(row, "relMSE, reference's own") for row in runs if row["scene"] == scene and number(row, "relMSE, reference's own")]
     if noise:
         axes.axhspan(0.0, max(noise), color="#999999", alpha=0.15, linewidth=0.0, zorder=0)
     names = sorted({name.removesuffix(", as published") for name in by} - set(BASELINES))
     for name, curve in sorted(by.items()):
         base = name.removesuffix(", as published")
+        times, errors = [point.ms for point in curve], [point.error for point in curve]
         if name in BASELINES:
-            axes.plot(*zip(*curve), color="black", linestyle=BASELINES[name], label=name)
+            axes.plot(times, errors, color="black", linestyle=BASELINES[name], label=name)
+            ends = [[point.ms * math.exp(sign * point.sd) for point in curve] for sign in (-1.0, 1.0)]
+            axes.fill_betweenx(errors, *ends, color="black", alpha=0.08, linewidth=0.0, zorder=0)
             continue
         index = names.index(base)
         color = COLORS[index % len(COLORS)]
         # Where colours come again their markers do not.
         marker = MARKERS[(index + 3 * (index // len(COLORS))) % len(MARKERS)]
         published = name != base
-        axes.plot(*zip(*curve), color=color, marker=marker, markersize=4, linewidth=0.8,
+        axes.plot(times, errors, color=color, marker=marker, markersize=4, linewidth=0.8,
                   linestyle="--" if published else "-", fillstyle="none" if published else "full", label=None if published else base)
-    own = [point for name, curve in by.items() if name not in BASELINES for point in curve]
+    own = [(point.ms, point.error) for name, curve in by.items() if name not in BASELINES for point in curve]
     front = pareto_front(own)
     axes.plot(*zip(*sorted(front)), color="#999999", linewidth=4, alpha=0.35, zorder=0)
     times, errors = zip(*own)
     axes.set(xscale="log", yscale="log", xlim=(min(times) / 2, max(times) * 2), ylim=(min(errors) / 2, max(errors) * 2),
              title=scene, xlabel="passes of the caustic, ms", ylabel="relMSE, net of the reference's noise")
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
-                title="filled: default\nhollow: as published", title_fontsize=7)
+                title="filled: default\nhollow: as published\ncircle: disturbed", title_fontsize=7)
     figure.savefig(file, bbox_inches="tight", metadata=drawings.metadata(inputs(file.parent)))
     plt.close(figure)
 
@@ -342,6 +341,7 @@ def draw(scene: str, by: dict[str, list[tuple[float, float]]], runs: list[dict],
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results/all_techniques")
+    parser.add_argument("--in-turn", type=pathlib.Path, default=ROOT / "results/all_techniques/in_turn.csv", help="times of the default and the light tracer at another hour")
     parser.add_argument("--tables", action="store_true", help="draws nothing")
     arguments = parser.parse_args()
     folder = arguments.results
@@ -357,8 +357,11 @@ def main() -> int:
             row["ms"] = str(number(row, "ms") - number(row, "media ms"))
     require_one_device([row for row in runs if row["status"] == "done"], folder)
     baselines = rows_of(folder / "light_tracer.csv")
-    of_scenes = curves(runs, baselines)
-    equal = equal_error(runs, light_tracers(baselines))
+    devices = {device_of(row) for row in runs if row["status"] == "done"}
+    in_turn = rows_of(arguments.in_turn) if arguments.in_turn.is_file() else []
+    spreads, tracers = Spreads(runs, baselines, [row for row in in_turn if device_of(row) in devices]), light_tracers(baselines)
+    of_scenes = points_of(runs, baselines, spreads)
+    equal = equal_error(runs, tracers, spreads)
     write(folder / "equal_error.csv", list(EQUAL_ERROR), [[row[key] for key in EQUAL_ERROR] for row in equal])
     middle = middle_runs(equal)
     if middle and not arguments.tables:
@@ -367,16 +370,17 @@ def main() -> int:
     def write_table(name: str, columns: list[str], rows: list[list]) -> None:
         write(folder / name, [*columns, *OF_THE_RUNS], [row + of_the_runs(runs) for row in rows])
 
-    write_table("answers.csv", ["scene", "status", "default's ms", "default's relMSE, net", "light tracer's ms", "factor", "at_least", "best",
-                                "best's ms", "best's relMSE, net", "best's factor", "best's at_least"], answers(middle))
-    write_table("summary.csv", ["who", "status", "scenes", "faster", "slower", "least", "median", "largest"], summary(answers(middle)))
+    answered, mapping = answers(middle), photon_mapping(equal, of_scenes)
+    for name, keys, table in (("answers.csv", ANSWERS, answered), ("photon_mapping.csv", MAPPING, mapping), ("one_second.csv", ONE_SECOND, one_second(equal, tracers, of_scenes, spreads))):
+        write_table(name, list(keys), [[row[key] for key in keys] for row in table])
+    write_table("summary.csv", SUMMARY, summary(answered, mapping, equal))
+    write_table("uncertainty.csv", UNCERTAINTY, uncertainty(spreads))
     write_table("costs.csv", ["technique", "as_published", "status", "scenes", "ns a photon", "least ns a photon", "most ns a photon", "ms at none", "bytes a photon", "MiB at none",
                               "most not formed, %", "most not formed, W", "on"], costs(runs))
     write_table("published.csv", ["technique", "status", "scenes", "ms", "least ms", "largest ms", "relMSE", "least relMSE", "largest relMSE", "gain", "least on", "least gain", "largest on", "largest gain"],
                 published(equal))
-    names = ["first", "value", "second", "times"]
-    write_table("to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
-    write_table("in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))
+    write_table("to_error.csv", ["scene", "relMSE", "status", *RANKED], ranked(of_scenes, ERRORS, by_error=True))
+    write_table("in_time.csv", ["scene", "ms", "status", *RANKED], ranked(of_scenes, TIMES_MS, by_error=False))
     for scene, by in of_scenes.items() if not arguments.tables else ():
         draw(scene, by, runs, folder / f"{scene}.svg")
     return 0

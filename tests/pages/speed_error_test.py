@@ -2,6 +2,7 @@
 """Speed against error compared with a light tracer, on runs whose factors are known: its relMSE is 1000 over its photons, each takes 1 us."""
 
 import csv
+import math
 import pathlib
 import subprocess
 import sys
@@ -24,6 +25,143 @@ ring,light,1000000,1.2,{0.001 + NOISE},{NOISE}
 ring,sppm,1000000,9,0.5,{NOISE}
 tree,light,0,0,,
 """
+
+
+# Of another time: a default with two numbers of photons, and what is known of times: frames that differ by a tenth; in turn half the time; the light tracer's three runs on one line with errors of a
+# tenth around one law.
+TIMED = """scene,technique,as_published,emit.photons,refine.finest,status,ms,media ms,spread,relMSE,"relMSE, reference's own",device,version
+pond,exact_rays,false,128x128,4096,done,100,,0.1,0.04,,d,1
+pond,exact_rays,false,256x256,4096,done,400,,0.1,0.01,,d,1
+pond,planar,false,128x128,4096,done,200,,0.5,0.02,,d,1
+cave,exact_rays,false,128x128,4096,done,300,200,0.1,0.002,,d,1
+cave,planar,false,128x128,4096,done,10,,0.1,0.001,,d,1
+"""
+TRACED = """scene,estimator,photons,seconds,relMSE,"relMSE, reference's own"
+pond,light,100000,0.2,{0},
+pond,light,200000,0.3,{1},
+pond,light,400000,0.5,{2},
+pond,sppm,100000,1,0.08,
+pond,sppm,200000,2,0.04,
+pond,sppm,400000,4,0.02,
+cave,light,100000,0.2,0.2,
+cave,light,200000,0.3,0.1,
+cave,light,400000,0.5,0.05,
+"""
+IN_TURN = """scene,technique,status,ms,us a photon,device
+pond,exact_rays,done,200,1,d
+cave,exact_rays,failed,,,d
+"""
+MIXTURES = """scene,emit.photons,status,ms,spread,relMSE,"relMSE, reference's own",device,version
+pond,128x128,done,400,0.1,0.04,,d,1
+pond,256x256,done,200,0.1,0.01,,d,1
+"""
+PLOTTING = PROGRAM.parent
+
+
+class Intervals(unittest.TestCase):
+    """On runs whose scatter is known."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        of = [0.02 * math.exp(0.1), 0.01 * math.exp(-0.1), 0.005]
+        for name, text in (("runs", TIMED), ("light_tracer", TRACED.format(*of)), ("turn", IN_TURN), ("best_mixtures", MIXTURES)):
+            (cls.folder / f"{name}.csv").write_text(text)
+        subprocess.run([sys.executable, "-B", PROGRAM, "--results", cls.folder, "--in-turn", cls.folder / "turn.csv"], check=True)
+
+    def rows(self, name):
+        with (self.folder / name).open(newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def row(self, name, **settings):
+        row, = (row for row in self.rows(name) if all(row[key] == value for key, value in settings.items()))
+        return row
+
+    def printed(self, table, file=None):
+        done = subprocess.run([sys.executable, "-B", PLOTTING / "speed_error_tables.py", table, file or self.folder / f"{table}.csv"], capture_output=True, text=True, check=True)
+        return done.stdout
+
+    def test_are_made_of_what_scatters(self):
+        of = {row["what"]: row for row in self.rows("uncertainty.csv")}
+        self.assertAlmostEqual(float(of["default's time at another hour"]["standard deviation"]), math.log(2.0), places=3)
+        self.assertEqual((of["default's time at another hour"]["scenes"], of["default's time at another hour"]["median"]), ("1", "2"))
+        self.assertAlmostEqual(float(of["light tracer's time at another hour"]["standard deviation"]), 0.0, places=6)
+        # Logarithms 0.1, -0.1 and 0 in one scene of two.
+        self.assertAlmostEqual(float(of["light tracer's error"]["standard deviation"]), math.sqrt(0.01 / 2.0), places=4)
+        for what in ("light tracer's time a photon", "photon mapping's error", "photon mapping's time"):  # on lines
+            self.assertAlmostEqual(float(of[what]["standard deviation"]), 0.0, places=6)
+
+    def test_of_a_factor_add_up_in_squares(self):
+        row = next(row for row in self.rows("equal_error.csv") if (row["scene"], row["technique"], row["emit.photons"]) == ("pond", "exact_rays", "256x256"))
+        self.assertAlmostEqual(float(row["factor"]), 0.2 / 0.4, places=3)  # 200,000 photons of 1 us
+        sd = math.hypot(0.1, math.log(2.0), math.sqrt(0.01 / 2.0))
+        self.assertAlmostEqual(float(row["low"]) / float(row["factor"]), math.exp(-sd), places=3)
+        self.assertAlmostEqual(float(row["high"]) / float(row["factor"]), math.exp(sd), places=2)
+
+    def test_of_frames_with_a_medium_are_of_what_is_left_without_it(self):
+        row, = (row for row in self.rows("equal_error.csv") if row["scene"] == "cave")  # and `planar`, whose medium was not told apart, is in no table
+        self.assertEqual((row["technique"], row["ms"]), ("exact_rays", "100"))
+        sd = math.hypot(0.3, math.log(2.0), math.sqrt(0.01 / 2.0))
+        self.assertAlmostEqual(float(row["low"]) / float(row["factor"]), math.exp(-sd), places=3)
+
+    def test_to_an_error_are_of_the_curve_shifted_by_its_times(self):
+        row = self.row("to_error.csv", scene="pond", relMSE="0.01")
+        self.assertEqual((row["first"], row["second"], row["at_most"], row["disturbed"]), ("best mixture", "light tracer", "false", "false"))
+        sd = math.hypot(0.1, math.log(2.0))
+        for end, sign in (("low", -1.0), ("high", 1.0)):
+            self.assertAlmostEqual(float(row[end]) / 200.0, math.exp(sign * sd), places=2)
+        both = math.hypot(sd, math.sqrt(0.01 / 2.0))
+        self.assertAlmostEqual(float(row["times low"]) / float(row["times"]), math.exp(-both), places=3)
+        self.assertIn("| `best mixture` 200 (99 to 403); `light tracer` ≈ |", self.printed("to_error"))
+
+    def test_within_a_time_beyond_the_last_run_are_bounds(self):
+        row = self.row("in_time.csv", scene="cave", ms="2000")
+        self.assertEqual([row[key] for key in ("first", "value", "low", "high", "at_most", "second")], ["exact_rays", "0.002", "0.002", "0.002", "true", "light tracer"])
+        row = self.row("in_time.csv", scene="cave", ms="50")
+        self.assertEqual((row["first"], row["at_most"], row["second"]), ("light tracer", "false", ""))  # the default is not there yet
+        row = self.row("to_error.csv", scene="cave", relMSE="0.1")
+        self.assertEqual((row["first"], row["value"], row["at_most"]), ("exact_rays", "100", "true"))
+
+    def test_by_photon_mapping_are_bounds_where_it_ends_before(self):
+        rows = {(row["scene"], row["emit.photons"]): row for row in self.rows("photon_mapping.csv")}
+        self.assertEqual(set(rows), {("pond", "128x128"), ("pond", "256x256")})  # none has run in the cave
+        self.assertEqual([rows["pond", "128x128"][key] for key in ("bound", "photon mapping's ms", "factor")], ["", "2000", "20"])
+        self.assertEqual([rows["pond", "256x256"][key] for key in ("bound", "photon mapping's ms", "factor")], ["≥", "4000", "10"])
+        self.assertIn("| `pond` | 20 (9.9 to 40) | ≥ 10 (5 to 20) |", self.printed("photon_mapping"))
+
+    def test_after_one_second_say_whether_it_is_reached(self):
+        row = self.row("one_second.csv", scene="pond")  # 0.002 with a million photons
+        self.assertEqual([row[key] for key in ("relMSE", "default's least relMSE", "emit.photons", "part", "reached", "times")], ["0.002", "0.01", "256x256", "5", "false", ""])
+        row = self.row("one_second.csv", scene="cave")
+        self.assertEqual([row[key] for key in ("relMSE", "part", "reached", "ms to it", "at_most", "times")], ["0.02", "0.1", "true", "100", "true", "10"])
+        self.assertIn("| `pond` | 0.002 | 0.01 | `256x256` | 400 | 5 | not reached | – |", self.printed("one_second"))
+        self.assertIn("| `128x128` | 100 | 0.1 | ≤ 100 (47 to 213) | ≥ 10 (4.7 to 21) |", self.printed("one_second"))
+
+    def test_the_default_is_compared_with_the_best_mixture_at_each_number_of_photons(self):
+        row = self.row("summary.csv", who="default over best mixture")
+        self.assertEqual([row[key] for key in ("scenes", "faster", "slower", "least", "largest", "clearly faster")], ["2", "1", "1", "0.5", "4", "1"])
+
+    def test_of_disturbed_runs_are_marked(self):
+        file = self.folder / "marked.csv"
+        file.write_text("scene,relMSE,first,value,low,high,at_most,disturbed,second,times,times low,times high\n"
+                        "pond,0.1,planar,10,9,11,true,true,light tracer,3,2,4\ntree,0.1,nothing,,,,,,,,,\n")
+        self.assertEqual(self.printed("to_error", file).splitlines()[2:], ["| `pond` | `planar`\\* ≤ 10 (9 to 11); `light tracer` ×3 |", "| `tree` | – |"])
+
+    def test_have_a_circle_around_disturbed_runs_where_they_are_drawn(self):
+        circled = [scene for scene in ("pond", "cave") if "#cc0000" in (self.folder / f"{scene}.svg").read_text()]
+        self.assertEqual(circled, ["pond"])
+
+    def test_of_another_device_are_without_what_is_in_turn_here(self):
+        turn = self.folder / "elsewhere.csv"
+        turn.write_text(IN_TURN.replace(",d", ",other"))
+        before = (self.folder / "uncertainty.csv").read_text()
+        subprocess.run([sys.executable, "-B", PROGRAM, "--tables", "--results", self.folder, "--in-turn", turn], check=True)
+        row = self.row("uncertainty.csv", what="default's time at another hour")
+        self.assertEqual((row["scenes"], row["standard deviation"]), ("0", "0"))
+        subprocess.run([sys.executable, "-B", PROGRAM, "--tables", "--results", self.folder, "--in-turn", self.folder / "turn.csv"], check=True)
+        self.assertEqual((self.folder / "uncertainty.csv").read_text(), before)
 
 
 class SpeedError(unittest.TestCase):
