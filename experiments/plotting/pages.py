@@ -43,14 +43,12 @@ import studies
 from quantities import NUMBER, formatted, source_of, text_of
 from sentences import unnamed
 from studies import anchor_of, command_of, seeds_of
-from views import PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
+from views import BUSY, PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Pages that a program writes as a whole.
 WRITTEN = ("numerics.md", "gallery.md", studies.PAGE)
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
-# So many processors are busy on an idle machine too.
-BUSY = 0.2
 KEYS = {"file", "rows", "where", "across", "cells", "names", "by", "columns", "words"}
 
 

@@ -8,8 +8,8 @@
     rebuild.py --quick [--out DIR] [STUDY...]
 
 Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from
-the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many runs of a study are of
-other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --only
+the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many rows of a study are of
+the tree's sources, in a fresh clone too, and how many runs below OUT are of others; --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --only
 those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all others; with
 --missing those that the CSV has no row of (studies.md names them). With --shard
 only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
@@ -28,11 +28,11 @@ import tempfile
 import time
 import tomllib
 
-from sources import Tree
+from sources import RECIPES, SOURCES, Present, Tree, keys_noted, note_recipes, recipes_of
 from study import device_of
 from study_plan import missing_of
 from table import rounded, rows_of_others
-from views import PageError, printed, recorded_of, rows_of
+from views import BUSY, PageError, printed, recorded_of, rows_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLOTTING = ROOT / "experiments/plotting"
@@ -94,7 +94,6 @@ PRINTED = ("umenhoffer2008_grazing", "umenhoffer2008_merge", "umenhoffer2008_rea
 # Whose tables say where the eye's rays go; other files of all of runs.csv are without that.
 OF_THE_VIEW = ("krueger2006_refraction",)
 
-SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
          "refine.finest": 64, "refine.start": 16, "refine.check": 32, "reconstruct.map_size": 128, "around.cubes.size": 64}
 
@@ -144,20 +143,52 @@ def reports_of(results: pathlib.Path) -> dict[str, pathlib.Path]:
 
 def stale(results: pathlib.Path, tree: Tree) -> list[pathlib.Path]:
     """The folders of runs that were made by other sources than the tree's now. Of a run without a key nothing is known: it stays."""
-    if not (results / SOURCES).is_file():
-        return []
-    keys = json.loads((results / SOURCES).read_text())
+    keys = keys_noted(results)
     return [report.parent for name, report in reports_of(results).items()
             if name in keys and keys[name] != tree.key_of(json.loads(report.read_text()))]
 
 
 def note_sources(results: pathlib.Path, tree: Tree, since: float) -> None:
     """Writes down the key of runs that were made since then, by the tree as it is; those of before keep theirs, or have none."""
-    file = results / SOURCES
-    keys = json.loads(file.read_text()) if file.is_file() else {}
+    keys = keys_noted(results)
     keys |= {name: tree.key_of(json.loads(report.read_text())) for name, report in reports_of(results).items()
              if report.stat().st_mtime >= since}
-    file.write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
+    (results / SOURCES).write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
+
+
+def begin_of(marker: pathlib.Path, tree: Tree) -> float:
+    """Since when runs are of the tree as it is: a call before this one may have been stopped before it noted their keys, and left its begin in `marker`. If sources
+    have changed since, what it made keeps none."""
+    before = json.loads(marker.read_text()) if marker.is_file() else {}
+    begin = {"since": time.time(), "tree": tree.fingerprint()}
+    if before.get("tree") == begin["tree"]:
+        return before["since"]
+    marker.parent.mkdir(parents=True, exist_ok=True)
+    marker.write_text(json.dumps(begin) + "\n")
+    return begin["since"]
+
+
+def recipes_in(results: pathlib.Path, tree: Tree) -> list[dict]:
+    """Of all runs that have a key."""
+    keys = keys_noted(results)
+    return [tree.recipe_of(json.loads(report.read_text())) for name, report in reports_of(results).items() if name in keys]
+
+
+def judged(study: str, results: pathlib.Path, present: Present) -> dict[str, int]:
+    """Of the rows of a study's CSV how many are of the tree's sources, how many of others, and how many of none that are known."""
+    file = results / STUDIES[study]
+    if not file.is_file():
+        return {}
+    base = tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()).get("base", {})
+    count = {"of the tree's sources": 0, "of others": 0, "not known": 0}
+    with file.open(newline="", encoding="utf-8") as stream:
+        for row in csv.DictReader(stream):
+            technique, scene = (row.get(key) or str(base.get(key, "")) for key in ("technique", "scene"))
+            if not row.get("sources"):
+                count["not known"] += 1
+            else:
+                count["of the tree's sources" if present.has(row["sources"], technique, scene) else "of others"] += 1
+    return count
 
 
 def forget_stale(results: pathlib.Path, tree: Tree) -> None:
@@ -169,8 +200,9 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
 
 
 def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_the_view: bool = True) -> None:
-    """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small. `keep`: with the rows that the
-    file has of other runs. Without `of_the_view` errors of what the eye sees are left out too."""
+    """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small.
+    Where runs have keys of their sources, rows have them last. `keep`: with the rows that the file has of other runs. Without `of_the_view` errors of what the eye
+    sees are left out too."""
     def stays(name: str) -> bool:
         return name not in ("folder", "hash") and ".formulas." not in name and (of_the_view or not name.startswith("error.view."))
 
@@ -179,6 +211,9 @@ def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_
         reader = csv.DictReader(stream)
         rows = list(reader)
     columns, kept = [name for name in reader.fieldnames if stays(name)], []
+    if (keys := keys_noted(runs.parent)) and "sources" not in columns:
+        columns.append("sources")
+        rows = [row | {"sources": keys.get(row["folder"], "")} for row in rows]
     if keep and target.is_file():
         with target.open(newline="", encoding="utf-8") as stream:
             before = list(csv.DictReader(stream))
@@ -224,6 +259,8 @@ def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
             runs = [row for row in csv.DictReader(stream) if row["status"] == "done"]
         of_runs = {"command": f"experiments/rebuild_results.sh {study}", "version": runs[0]["version"], "device": device_of(runs[0]),
                    "seed": runs[0].get("seed", ""), "date": max(row.get("date", "") for row in runs)[:10]}
+        loads = [float(row["other_processors"]) for row in runs if row.get("other_processors")]
+        of_runs |= {"other_processors": f"{max(loads):.1f}"} if loads and max(loads) > BUSY else {}
         rows = [{**{key: cell for key, cell in row.items() if key != "under"}, **of_runs} for row in rows_of(printed(program, target.stem, results))]
         with kept.open("w", newline="", encoding="utf-8") as stream:
             writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
@@ -284,7 +321,7 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
     """`only`: conditions; None: what is missing."""
     failures = []
     for study in studies:
-        tree, begin = Tree(), time.time()
+        tree = Tree()
         of_all = ["--shard", shard] if shard else [word for condition in only or [] for word in ("--only", condition)]
         try:
             parts = missing_parts(study) if only is None else [of_all]
@@ -297,17 +334,23 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             continue
         if anew:
             forget_stale(out / study, tree)
+        marker = out / f"{study}{'-' + shard.replace('/', '-of-') if shard else ''}.since.json"
+        begin = begin_of(marker, tree)
         for part in parts:
             try:
                 call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
             except Failure as failure:
                 failures.append(f"{study}: {failure}")  # whose rows say why; the others count
-        if (out / study).is_dir():
+        if Tree().fingerprint() != tree.fingerprint():
+            failures.append(f"{study}: sources were changed while it ran; its new runs are of none that are known")
+        elif (out / study).is_dir():
             note_sources(out / study, tree, begin)
+        marker.unlink(missing_ok=True)
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:
             csv_of(out / study, study, ROOT / "results" / STUDIES[study], is_part)
+            note_recipes(ROOT / "results" / RECIPES, recipes_in(out / study, tree))
             if not is_part:  # of a part no whole table can be printed
                 record(out / study, study, ROOT / "results" / STUDIES[study])
             if study == "bias":
@@ -350,9 +393,12 @@ def main() -> int:
     kaustik = arguments.kaustik.resolve()
     if arguments.stale:
         tree, out = Tree(), (arguments.out or ROOT / "results/runs/experiments").resolve()
+        present = Present(tree, recipes_of(ROOT / "results" / RECIPES))
         for study in studies:
+            parts = [", ".join(f"{count} {what}" for what, count in judged(study, ROOT / "results", present).items() if count) or "no rows"]
             if reports := reports_of(out / study):
-                print(f"{study:32} {len(stale(out / study, tree))} of {len(reports)} runs")
+                parts.append(f"of {len(reports)} runs there {len(stale(out / study, tree))} are of others")
+            print(f"{study:32} {'; '.join(parts)}")
         return 0
     if arguments.quick:
         with tempfile.TemporaryDirectory() as folder:
