@@ -291,9 +291,11 @@ def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[
     return failures
 
 
-def compare_with_light_tracer(kaustik: pathlib.Path) -> None:
+def compare_with_light_tracer(kaustik: pathlib.Path, anew: bool, scenes: list[str]) -> None:
+    """`anew`: its rows of other sources too, of these scenes where a part is made."""
     light_tracer = ROOT / "results/all_techniques/light_tracer.csv"
-    call(sys.executable, "-B", ROOT / "experiments/light_tracer.py", "--kaustik", kaustik, "--out", light_tracer)
+    call(sys.executable, "-B", ROOT / "experiments/light_tracer.py", "--kaustik", kaustik, "--out", light_tracer,
+         *(["--anew"] if anew else []), *(["--scenes", *scenes] if scenes else []))
     call(sys.executable, "-B", PLOTTING / "speed_error.py")
 
 
@@ -341,7 +343,9 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
                 call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
             except Failure as failure:
                 failures.append(f"{study}: {failure}")  # whose rows say why; the others count
-        if Tree().fingerprint() != tree.fingerprint():
+        if not tree.has_built(kaustik):
+            print(f"{study}: '{kaustik}' is of another tree; its rows have no keys of sources", flush=True)
+        elif Tree().fingerprint() != tree.fingerprint():
             failures.append(f"{study}: sources were changed while it ran; its new runs are of none that are known")
         elif (out / study).is_dir():
             note_sources(out / study, tree, begin)
@@ -356,7 +360,7 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             if study == "bias":
                 call(sys.executable, "-B", PLOTTING / "bias.py", out / study, "--out", ROOT / "results/bias")
             if study in ("all_techniques", "best_mixtures"):
-                compare_with_light_tracer(kaustik)
+                compare_with_light_tracer(kaustik, anew, [condition.removeprefix("scene=") for condition in only or [] if condition.startswith("scene=")])
             if study == "best_mixtures_choice":
                 call(sys.executable, "-B", PLOTTING / "best_mixtures.py", ROOT / "results" / STUDIES[study],
                      "--study", ROOT / "experiments/best_mixtures.toml")

@@ -19,7 +19,9 @@ import argparse
 import functools
 import hashlib
 import json
+import os
 import re
+import shutil
 import sys
 import tomllib
 from pathlib import Path
@@ -87,11 +89,8 @@ class Tree:
     def fingerprint(self) -> str:
         """Of all files that any run's key may be of."""
         scenes = [file for file in (self.root / "experiments").glob("*/*") if file.suffix in (".toml", ".png")]
-        digest = hashlib.sha256()
-        for file in sorted({*self.needed_by_framework(), *scenes, *(self.root / "techniques").rglob("*"), *(self.root / "shaders").rglob("*")}):
-            if file.is_file():
-                digest.update(self.part(file))
-        return digest.hexdigest()[:12]
+        folders = ("techniques", "shaders", "framework/certify", "framework/judge", "framework/exporters")
+        return self.key_of_files({*self.needed_by_framework(), *scenes, *self.closure({file for folder in folders for file in (self.root / folder).rglob("*")})})
 
     def nodes_of(self, parameters: dict) -> set[Path]:
         files = set()
@@ -148,11 +147,27 @@ class Tree:
         nodes = self.nodes_of(report["parameters"]) | {self.root / f"techniques/{report['technique']}.cpp"}
         return self.closure(nodes) | self.needed_by_framework() | self.scene_files(report["scene"]["name"])
 
-    def key_of(self, report: dict) -> str:
+    def key_of_files(self, files: set[Path]) -> str:
         digest = hashlib.sha256()
-        for file in sorted(self.files_of(report)):
-            digest.update(self.part(file))
+        for file in sorted(files):
+            if file.is_file():
+                digest.update(self.part(file))
         return digest.hexdigest()[:12]
+
+    def key_of(self, report: dict) -> str:
+        return self.key_of_files(self.files_of(report))
+
+    def key_without_technique(self, scene: str, *folders: str) -> str:
+        """Of what is no run of a technique, such as a reference: the framework, the scene, and what else lies in these folders below the root."""
+        more = self.closure({file for folder in folders for file in (self.root / folder).rglob("*") if file.is_file()})
+        scenes = [self.scene_files(name) for name in self.scene_names(scene)]
+        return self.key_of_files(more.union(self.needed_by_framework(), *scenes))
+
+    def has_built(self, kaustik: str | Path) -> bool:
+        """Whether a program was built of this tree as it is now, and reads its shaders: only then is what it makes of this tree's keys."""
+        file, root = Path(shutil.which(kaustik) or kaustik).resolve(), self.root.resolve()
+        read = Path(os.environ.get("KAUSTIK_ROOT") or root).resolve()
+        return file.is_file() and file.is_relative_to(root) and read == root and file.stat().st_mtime >= self.newest_source()
 
     def recipe_of(self, report: dict) -> dict:
         """What of a report, but for its scene, its key is of."""
@@ -192,6 +207,19 @@ class Present:
     def has(self, key: str, technique: str, scene: str) -> bool:
         """`technique`: none where a row does not say it."""
         return bool(key) and key in self.keys(technique, scene)
+
+
+class Maker:
+    """What rows say of their sources, for a program that makes them one after the other."""
+
+    def __init__(self, kaustik: str | Path, root: Path = ROOT):
+        self.tree = Tree(root)
+        self.begin = self.tree.fingerprint()  # all files are read now: keys are of them as they are
+        self.known = self.tree.has_built(kaustik)
+
+    def sources(self, key: str) -> str:
+        """The key, but none where the program is not this tree's, or sources were changed since."""
+        return key if self.known and Tree(self.tree.root).fingerprint() == self.begin else ""
 
 
 def main() -> int:

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 import unittest
+from unittest import mock
 
 PLOTTING = pathlib.Path(__file__).resolve().parents[2] / "experiments/plotting"
 sys.path.insert(0, str(PLOTTING))
@@ -131,6 +132,35 @@ class Sources(unittest.TestCase):
         self.assertTrue(changed.has(Tree(self.root).key_of(REPORT), "planar", "pool"))
         # Without its recipe nothing is said to be of the tree.
         self.assertFalse(Present(Tree(self.root), []).has(Tree(self.root).key_of(REPORT), "planar", "pool"))
+
+    def test_what_is_no_run_of_a_technique_is_of_the_framework_its_scene_and_its_own_folders(self):
+        key, of_nodes = Tree(self.root).key_without_technique("pool"), Tree(self.root).key_without_technique("pool", "techniques")
+        self.assertNotEqual(key, of_nodes)
+        for name, counts, of_nodes_too in (("techniques/planar.cpp", False, True), ("shaders/trace/lines.comp", False, True), ("framework/gui/window.cpp", False, False),
+                                           ("framework/pipeline/frame.cpp", True, True), ("experiments/scenes/pool.toml", True, True)):
+            (self.root / name).write_text(FILES[name] + " ")
+            self.assertEqual(Tree(self.root).key_without_technique("pool") != key, counts, name)
+            self.assertEqual(Tree(self.root).key_without_technique("pool", "techniques") != of_nodes, of_nodes_too, name)
+            (self.root / name).write_text(FILES[name])
+
+    def test_a_program_makes_rows_of_the_trees_keys_only_where_it_was_built_of_it_and_nothing_changes(self):
+        built, elsewhere = self.root / "build/kaustik", pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "kaustik"
+        built.parent.mkdir()
+        for file in (built, elsewhere):
+            file.write_text("")
+        with mock.patch.dict(os.environ):
+            os.environ.pop("KAUSTIK_ROOT", None)
+            self.assertEqual(sources.Maker(elsewhere, self.root).sources("k"), "")
+            maker = sources.Maker(built, self.root)
+            self.assertEqual(maker.sources("k"), "k")
+            (self.root / "shaders/trace/march.comp").write_text("void main() { return; }")
+            self.assertEqual(maker.sources("k"), "")
+            self.assertEqual(sources.Maker(built, self.root).sources("k"), "k")  # shaders are read as they are
+            os.environ["KAUSTIK_ROOT"] = str(elsewhere.parent)
+            self.assertEqual(sources.Maker(built, self.root).sources("k"), "")
+            os.environ.pop("KAUSTIK_ROOT")
+            os.utime(built, (1000, 1000))
+            self.assertEqual(sources.Maker(built, self.root).sources("k"), "")
 
     def test_what_a_call_made_that_was_stopped_has_a_key_unless_sources_have_changed(self):
         marker = self.root / "out/study.since.json"
