@@ -15,8 +15,6 @@ that are of other sources than the tree's, or of none that are known. Times need
 """
 
 import argparse
-import csv
-import datetime
 import json
 import os
 import pathlib
@@ -28,7 +26,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "experiments/plotting"))
-from sources import Maker  # noqa: E402
+from sources import Maker, now, rows_in, write_whole  # noqa: E402
 from study import device_of  # noqa: E402
 
 SEED = 7  # not that of the references, whose photons would be the same
@@ -75,7 +73,7 @@ def measure(options, scene: str, estimator: str, photons: int, folder: pathlib.P
         kaustik(options.kaustik, "reference", scene, "--size", options.size, "--photons", options.reference_photons,
                 "--out", reference)
     # Out of an empty cache: what is there already is not traced, and so has no time.
-    load, begin = Load(), datetime.datetime.now(datetime.timezone.utc)
+    load, begin = Load(), now()
     with tempfile.TemporaryDirectory() as cache:
         kaustik(options.kaustik, "reference", scene, "--size", options.size, "--photons", photons, "--seed", SEED,
                 "--estimator", estimator, "--threads", options.threads, "--out", image, cache=pathlib.Path(cache))
@@ -87,32 +85,16 @@ def measure(options, scene: str, estimator: str, photons: int, folder: pathlib.P
             "seconds": traced["compute_s"], "relMSE": error["rel_mse"],
             "relMSE, reference's own": error["truth_noise"]["rel_mse"], "SMAPE": error["smape"],
             "HDR FLIP": error["flip_hdr"], "energy": error["energy_ratio"], "version": traced["version"],
-            "date": begin.strftime("%Y-%m-%dT%H:%M:%SZ"), "device": processor(options.threads), "other_processors": f"{others:.3g}"}
-
-
-def rows_in(file: pathlib.Path) -> list[dict]:
-    if not file.exists():
-        return []
-    with file.open(newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
+            "date": begin, "device": processor(options.threads), "other_processors": f"{others:.3g}"}
 
 
 def identity(row: dict) -> tuple[str, ...]:
     return tuple(str(row[key]) for key in SETTINGS)
 
 
-def write(file: pathlib.Path, rows: list[dict]) -> None:
-    """Whole or not at all: rows of before would be lost with it."""
-    with (part := file.with_suffix(".part")).open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
-        writer.writeheader()
-        writer.writerows(rows)
-    part.replace(file)
-
-
-def wanted(scenes: list[str], photons: list[int], rows: list[dict], key_of=None) -> list[tuple[str, str, int]]:
-    """Scene, estimator and photons of the rows that are not there, or, with `key_of` of a scene, are not of its key."""
-    done = {identity(row) for row in rows if key_of is None or row.get("sources") == key_of(row["scene"])}
+def wanted(scenes: list[str], photons: list[int], rows: list[dict], device: str, key_of=None) -> list[tuple[str, str, int]]:
+    """Scene, estimator and photons of the rows that are not there, or, with `key_of` of a scene, are not of its key and of this device."""
+    done = {identity(row) for row in rows if key_of is None or (row.get("sources"), row.get("device")) == (key_of(row["scene"]), device)}
     return [(scene, estimator, count) for scene in scenes for estimator in ("light", "sppm") for count in photons
             if (scene, estimator, str(count)) not in done]
 
@@ -131,16 +113,21 @@ def main() -> None:
     scenes = options.scenes or [line.split()[0] for line in kaustik(options.kaustik, "list", "scenes").splitlines()]
 
     maker, rows = Maker(options.kaustik), rows_in(options.out)
-    if options.anew and not maker.known:
-        sys.exit(f"light_tracer: --anew: '{options.kaustik}' is not what the tree's sources make now; build it first")
-    options.out.parent.mkdir(parents=True, exist_ok=True)
+    if options.anew:
+        maker.require()
+    device = processor(options.threads)
+    missing = wanted(scenes, options.photons, rows, device, maker.tree.key_without_technique if options.anew else None)
+    others = {row["device"] for row in rows if row.get("device") and identity(row) not in {tuple(map(str, one)) for one in missing}} - {device}
+    if missing and others:
+        sys.exit(f"light_tracer: '{options.out}' has times of {' and '.join(sorted(others))}, and this is {device}: what a photon costs is a difference of rows. "
+                 "Make all anew, or another file")
     with tempfile.TemporaryDirectory() as folder:
-        for scene, estimator, photons in wanted(scenes, options.photons, rows, maker.tree.key_without_technique if options.anew else None):
+        for scene, estimator, photons in missing:
             row = measure(options, scene, estimator, photons, pathlib.Path(folder)) | {
                 "asked": photons, "sources": maker.sources(maker.tree.key_without_technique(scene))}
             at = next((i for i, old in enumerate(rows) if identity(old) == identity(row)), len(rows))
             rows[at:at + 1] = [row]
-            write(options.out, rows)
+            write_whole(options.out, COLUMNS, rows)
             said = "no caustic" if row["relMSE"] is None else f"relMSE {row['relMSE']:.3g}"
             print(f"{scene}, {estimator}, {row['photons']} photons: {row['seconds']:.2f} s, {said}", flush=True)
 

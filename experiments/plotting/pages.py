@@ -123,7 +123,7 @@ def as_it_stands(spec: dict, file: str, anew: str, results: pathlib.Path) -> str
     rows = chosen(runs(results / file), spec.get("where", {}))
     if not rows:
         raise PageError(f"no row of '{file}' has these settings")
-    columns = spec.get("columns") or [name for name in rows[0] if name not in PROVENANCE]
+    columns = spec.get("columns") or [name for name in rows[0] if name not in (*PROVENANCE, "sources")]
     names, words = spec.get("names", {}), spec.get("words", [])
     lines = ["| " + " | ".join(names.get(name, name) for name in columns) + " |", "|" + " --- |" * len(columns)]
     for row in rows:

@@ -24,19 +24,20 @@ ring,light,400x300,21,0.2,0.1,0.01,0.3,0.4,1.0,0.1.0,20
 class Rows(unittest.TestCase):
     def setUp(self):
         self.file = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "light_tracer.csv"
-        self.made, self.key, self.known = [], "0123456789ab", True
+        self.made, self.key, self.known, self.device = [], "0123456789ab", True, "c, 2 threads"
 
     def call(self, *arguments: str) -> list[dict]:
         def measure(options, scene, estimator, photons, folder):
             self.made.append((scene, estimator, photons))
             return {"scene": scene, "estimator": estimator, "size": options.size, "photons": photons + 2, "seconds": 0.5, "relMSE": 0.25, "version": "2",
-                    "date": "2026-12-01T00:00:00Z", "device": "c, 2 threads", "other_processors": "0.01"}
+                    "date": "2026-12-01T00:00:00Z", "device": self.device, "other_processors": "0.01"}
 
-        maker = mock.Mock(known=self.known, sources=lambda key: key)
-        maker.tree.key_without_technique = lambda scene: self.key
+        maker = light_tracer.Maker("kaustik")
+        maker.known, maker.sources = self.known, lambda key: key
+        maker.tree = mock.Mock(key_without_technique=lambda scene: self.key)
         self.made.clear()
         with mock.patch.object(light_tracer, "measure", measure), mock.patch.object(light_tracer, "Maker", lambda _: maker), \
-                mock.patch.object(sys, "argv", ["light_tracer.py", "--out", str(self.file), "--scenes", "ring", "--photons", "10", "20", *arguments]), \
+                mock.patch.object(light_tracer, "processor", lambda _: self.device), mock.patch.object(sys, "argv", ["light_tracer.py", "--out", str(self.file), "--scenes", "ring", "--photons", "10", "20", *arguments]), \
                 contextlib.redirect_stdout(io.StringIO()):
             light_tracer.main()
         with self.file.open(newline="") as stream:
@@ -73,6 +74,16 @@ class Rows(unittest.TestCase):
             self.call("--anew")
         self.assertIn("build it first", str(raised.exception))
         self.assertEqual(self.file.read_text(), OLD)
+
+    def test_of_another_device_are_no_neighbours(self):
+        self.file.write_text(OLD)
+        self.call()
+        self.device, before = "d, 2 threads", self.file.read_text()
+        with self.assertRaises(SystemExit) as raised:
+            self.call("--photons", "10", "20", "40")
+        self.assertIn("c, 2 threads, and this is d, 2 threads", str(raised.exception))
+        self.assertEqual(self.file.read_text(), before)
+        self.assertEqual({row["device"] for row in self.call("--anew")}, {"d, 2 threads"})
 
     def test_say_how_busy_the_machine_was_with_other_work(self):
         load = light_tracer.Load()
