@@ -19,7 +19,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "experiments/plotting"))
-from sources import Maker, Tree, made, rows_in, write_whole  # noqa: E402
+from maker import Maker, made, rows_in, write_whole  # noqa: E402
+from sources import Tree  # noqa: E402
 
 
 def scenes(kaustik: str) -> list[str]:

@@ -26,7 +26,7 @@ import OpenImageIO
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "experiments/plotting"))
-from sources import Maker, made, rows_in, write_whole  # noqa: E402
+from maker import Maker, made, rows_in, write_whole  # noqa: E402
 
 KAUSTIK = ROOT / "build/release/bin/kaustik"
 SIZE = "200x150"

@@ -33,7 +33,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent / "plotting"))
 import drawings  # noqa: E402
 import kaustik  # noqa: E402
 from figures import COLORS, MARKERS, plt  # noqa: E402
-from sources import Maker, now, rows_in, write_whole  # noqa: E402
+from maker import Maker, now, rows_in, write_whole  # noqa: E402
 
 SETTINGS = ["scene", "technique", "as_published", "frames", "time_step", "size", "photons", "reference_photons"]
 MEANS = ["relMSE", "change", "wrong change"]

@@ -20,7 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 sys.path.insert(0, str(ROOT / "plotting"))
-from sources import Maker, made, now, rows_in, write_whole  # noqa: E402
+from maker import Maker, made, now, rows_in, write_whole  # noqa: E402
 
 SCENES = ["flat-water", "ring", "concave-glass", "pool-reflections", "glass-sphere", str(ROOT / "judge/ball-in-sun.toml")]
 

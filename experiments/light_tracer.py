@@ -26,7 +26,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "experiments/plotting"))
-from sources import Maker, now, rows_in, write_whole  # noqa: E402
+from maker import Maker, now, rows_in, write_whole  # noqa: E402
 from study import device_of  # noqa: E402
 
 SEED = 7  # not that of the references, whose photons would be the same

@@ -25,7 +25,7 @@ from collections import defaultdict
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "experiments/plotting"), str(ROOT / "experiments")]
-from sources import Maker  # noqa: E402
+from maker import Maker  # noqa: E402
 from speed_error import DEFAULT, net, number, rows_of  # noqa: E402
 from table import CAUSTIC  # noqa: E402
 from two_builds import interval, rows_of_others, write_rows  # noqa: E402

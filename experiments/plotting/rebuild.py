@@ -1,34 +1,39 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs studies and makes of them what stands in results/.
+"""Runs studies and makes of them what stands in results/; then calls the programs of all else that is there (result_steps.py).
 
-    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [--missing | --only KEY=VALUE]... [STUDY...]
+    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N | --missing | --only KEY=VALUE]... [STUDY | STEP]...
     rebuild.py --list
     rebuild.py --stale [--out results/runs/experiments] [STUDY...]
-    rebuild.py --quick [--out DIR] [STUDY...]
+    rebuild.py --quick [--out DIR] [STUDY | STEP]...
 
-Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from
-the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many rows of a study are of
-the tree's sources, in a fresh clone too, and how many runs below OUT are of others; --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --only
-those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all others; with
---missing those that the CSV has no row of (studies.md names them). With --shard
-only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
---quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
-of results/ still work, in minutes. Ends with 1 where something does not.
+Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from the CSVs
+(pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many rows of a study are of the
+tree's sources, in a fresh clone too, and how many runs below OUT are of others; --anew makes those again, and no others. A study of which runs have failed
+keeps them as rows with their message.
+With --only those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all
+others; with --missing those that the CSV has no row of (studies.md names them), or, with --anew too, no row that is known to be of the tree's sources: so a
+clone without any run makes what is no longer true, and nothing else. With --shard only the K-th of N equal parts is run and nothing is written to results/;
+when all are done, run without.
+Steps are what no study makes: censuses, certificates, pictures; --list names them. Without names all studies are run and then all steps, but for those that
+need what is not here, which it says; with --only, --missing or --shard no step is.
+--quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands of
+results/ still work, in minutes; of steps only whether their programs are there and take what they are called with. Ends with 1 where something does not.
 """
 
 import argparse
 import csv
 import json
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
-import time
 import tomllib
 
-from sources import RECIPES, SOURCES, Present, Tree, keys_noted, note_recipes, recipes_of
+from maker import rows_in
+from noted import begin_of, forget_stale, judged, note_sources, of_tree, recipes_in, reports_of, stale
+from result_steps import STEPS, described, make, missing_for, wrong_with
+from sources import RECIPES, Present, Tree, keys_noted, note_recipes, recipes_of
 from study import device_of
 from study_plan import missing_of
 from table import rounded, rows_of_others
@@ -137,68 +142,6 @@ def small(study: pathlib.Path) -> str:
     return "\n".join([*lines, *(f"{json.dumps(key)} = {toml(value)}" for key, value in run.items())]) + "\n"
 
 
-def reports_of(results: pathlib.Path) -> dict[str, pathlib.Path]:
-    return {report.parent.name: report for report in results.glob("*/report.json")}
-
-
-def stale(results: pathlib.Path, tree: Tree) -> list[pathlib.Path]:
-    """The folders of runs that were made by other sources than the tree's now. Of a run without a key nothing is known: it stays."""
-    keys = keys_noted(results)
-    return [report.parent for name, report in reports_of(results).items()
-            if name in keys and keys[name] != tree.key_of(json.loads(report.read_text()))]
-
-
-def note_sources(results: pathlib.Path, tree: Tree, since: float) -> None:
-    """Writes down the key of runs that were made since then, by the tree as it is; those of before keep theirs, or have none."""
-    keys = keys_noted(results)
-    keys |= {name: tree.key_of(json.loads(report.read_text())) for name, report in reports_of(results).items()
-             if report.stat().st_mtime >= since}
-    (results / SOURCES).write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
-
-
-def begin_of(marker: pathlib.Path, tree: Tree) -> float:
-    """Since when runs are of the tree as it is: a call before this one may have been stopped before it noted their keys, and left its begin in `marker`. If sources
-    have changed since, what it made keeps none."""
-    before = json.loads(marker.read_text()) if marker.is_file() else {}
-    begin = {"since": time.time(), "tree": tree.fingerprint()}
-    if before.get("tree") == begin["tree"]:
-        return before["since"]
-    marker.parent.mkdir(parents=True, exist_ok=True)
-    marker.write_text(json.dumps(begin) + "\n")
-    return begin["since"]
-
-
-def recipes_in(results: pathlib.Path, tree: Tree) -> list[dict]:
-    """Of all runs that have a key."""
-    keys = keys_noted(results)
-    return [tree.recipe_of(json.loads(report.read_text())) for name, report in reports_of(results).items() if name in keys]
-
-
-def judged(study: str, results: pathlib.Path, present: Present) -> dict[str, int]:
-    """Of the rows of a study's CSV how many are of the tree's sources, how many of others, and how many of none that are known."""
-    file = results / STUDIES[study]
-    if not file.is_file():
-        return {}
-    base = tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()).get("base", {})
-    count = {"of the tree's sources": 0, "of others": 0, "not known": 0}
-    with file.open(newline="", encoding="utf-8") as stream:
-        for row in csv.DictReader(stream):
-            technique, scene = (row.get(key) or str(base.get(key, "")) for key in ("technique", "scene"))
-            if not row.get("sources"):
-                count["not known"] += 1
-            else:
-                count["of the tree's sources" if present.has(row["sources"], technique, scene) else "of others"] += 1
-    return count
-
-
-def forget_stale(results: pathlib.Path, tree: Tree) -> None:
-    folders = stale(results, tree)
-    for folder in folders:
-        shutil.rmtree(folder)
-    if folders:
-        print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
-
-
 def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_the_view: bool = True) -> None:
     """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small.
     Where runs have keys of their sources, rows have them last. `keep`: with the rows that the file has of other runs. Without `of_the_view` errors of what the eye
@@ -268,8 +211,8 @@ def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
             writer.writerows(rows)
 
 
-def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[str]:
-    failures = []
+def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str], steps: list[str]) -> list[str]:
+    failures = [f"{step}: {what}" for step in steps for what in wrong_with(STEPS[step])]
     for study in studies:
         file = out / f"{study}.toml"
         file.write_text(small(ROOT / f"experiments/{study}.toml"))
@@ -305,28 +248,28 @@ def conditions_of(run: dict) -> list[str]:
     return [word for key, text in texts.items() for word in ("--only", f"{key}={text}")]
 
 
-def missing_parts(study: str) -> list[list[str]]:
-    """The conditions of each run that the study's CSV has no row of; of a study without a CSV, none: all runs are."""
-    target = ROOT / "results" / STUDIES[study]
-    if not target.is_file():
+def missing_parts(study: str, present: Present | None = None) -> list[list[str]]:
+    """The conditions of each run that the study's CSV has no row of, or none that is `present`; where it has no such row at all, none: all runs are."""
+    described_study = tomllib.loads((ROOT / f"experiments/{study}.toml").read_text())
+    rows = tuple(row for row in rows_in(ROOT / "results" / STUDIES[study]) if present is None or of_tree(described_study, row, present))
+    if not rows:
         return [[]]
-    with target.open(newline="", encoding="utf-8") as stream:
-        rows = tuple(csv.DictReader(stream))
-    _, missing = missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows)
+    _, missing = missing_of(described_study, rows)
     if missing and study in RUNS and "as_published" not in rows[0]:
         raise Failure(f"{study}: the rows of results/{STUDIES[study]} are of a version that did not write all settings, so that {len(missing)} that are missing "
                       "cannot stand next to them; make it whole, without --missing")
     return [conditions_of(run) for run in missing]
 
 
-def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str] | None, studies: list[str]) -> list[str]:
+def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str] | None, studies: list[str],
+            steps: list[str]) -> list[str]:
     """`only`: conditions; None: what is missing."""
     failures = []
     for study in studies:
         tree = Tree()
         of_all = ["--shard", shard] if shard else [word for condition in only or [] for word in ("--only", condition)]
         try:
-            parts = missing_parts(study) if only is None else [of_all]
+            parts = [of_all] if only is not None else missing_parts(study, Present(tree, recipes_of(ROOT / "results" / RECIPES)) if anew else None)
         except Failure as failure:
             failures.append(str(failure))
             continue
@@ -367,6 +310,11 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             print(f"{study}: results/{STUDIES[study]}", flush=True)
         except (Failure, PageError) as failure:
             failures.append(f"{study}: {failure}")
+    for step in steps:
+        if wrong := make(STEPS[step], kaustik, anew):
+            failures.append(f"{step}: {wrong}")
+        else:
+            print(f"{step}: results/{STEPS[step].makes}", flush=True)
     try:
         if not shard:
             call(sys.executable, "-B", PLOTTING / "pages.py")
@@ -386,20 +334,22 @@ def main() -> int:
     parser.add_argument("--stale", action="store_true")
     parser.add_argument("--anew", action="store_true")
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("studies", nargs="*", metavar="STUDY")
+    parser.add_argument("names", nargs="*", metavar="STUDY | STEP")
     arguments = parser.parse_args()
-    if unknown := set(arguments.studies) - set(STUDIES | DEVICE if arguments.quick else STUDIES):
-        sys.exit(f"rebuild: there is no study '{sorted(unknown)[0]}'; --list names them")
-    studies = arguments.studies or list(STUDIES)
+    if unknown := set(arguments.names) - set(STUDIES | DEVICE if arguments.quick else STUDIES) - set(STEPS):
+        sys.exit(f"rebuild: there is no study or step '{sorted(unknown)[0]}'; --list names them")
+    studies = [name for name in arguments.names if name not in STEPS] if arguments.names else list(STUDIES)
+    steps = [name for name in arguments.names if name in STEPS] if arguments.names else list(STEPS)
     if arguments.list:
-        print("\n".join(f"{study:32} results/{STUDIES[study]}" for study in studies))
+        print("\n".join([*(f"{study:32} results/{STUDIES[study]}" for study in studies), *map(described, steps)]))
         return 0
     kaustik = arguments.kaustik.resolve()
     if arguments.stale:
         tree, out = Tree(), (arguments.out or ROOT / "results/runs/experiments").resolve()
         present = Present(tree, recipes_of(ROOT / "results" / RECIPES))
         for study in studies:
-            parts = [", ".join(f"{count} {what}" for what, count in judged(study, ROOT / "results", present).items() if count) or "no rows"]
+            counts = judged(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows_in(ROOT / "results" / STUDIES[study]), present)
+            parts = [", ".join(f"{count} {what}" for what, count in counts.items() if count) or "no rows"]
             if reports := reports_of(out / study):
                 parts.append(f"of {len(reports)} runs there {len(stale(out / study, tree))} are of others")
             print(f"{study:32} {'; '.join(parts)}")
@@ -408,20 +358,29 @@ def main() -> int:
         with tempfile.TemporaryDirectory() as folder:
             out = arguments.out.resolve() if arguments.out else pathlib.Path(folder)
             out.mkdir(parents=True, exist_ok=True)
-            failures = quick(kaustik, out, arguments.studies or [*STUDIES, *DEVICE])
+            failures = quick(kaustik, out, studies if arguments.names else [*STUDIES, *DEVICE], steps)
     else:
-        if arguments.only and (len(arguments.studies) != 1 or arguments.studies[0] in REPORTS):
+        if arguments.only and (len(studies) != 1 or studies[0] in REPORTS):
             sys.exit("rebuild: --only is of one study, whose CSV has a row a run; name it")
-        if arguments.missing and (arguments.only or arguments.shard or arguments.anew):
-            sys.exit("rebuild: --missing says by itself which runs are made: it goes with no --only, --shard or --anew")
+        if arguments.only or arguments.missing or arguments.shard:  # parts, of studies
+            if steps and arguments.names:
+                sys.exit(f"rebuild: '{steps[0]}' is no study: it has no --only, --missing or --shard")
+            steps = []
+        if arguments.missing and (arguments.only or arguments.shard):
+            sys.exit("rebuild: --missing says by itself which runs are made: it goes with no --only or --shard")
         if arguments.missing:
             studies = [study for study in studies if study not in REPORTS]
         if arguments.anew and arguments.shard:
             sys.exit("rebuild: --anew with --shard would take from other shards what they have made")
-        if kaustik.stat().st_mtime < Tree().newest_source():
-            sys.exit(f"rebuild: '{kaustik}' is older than the sources; build it first")
+        if not kaustik.is_file() or kaustik.stat().st_mtime < Tree().newest_source():
+            sys.exit(f"rebuild: '{kaustik}' is not there, or older than the sources; build it first")
         out = (arguments.out or ROOT / "results/runs/experiments").resolve()
-        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, None if arguments.missing else arguments.only, studies)
+        cannot = {step: why for step in steps if (why := missing_for(STEPS[step], bool(arguments.names)))}
+        for step, why in cannot.items():
+            print(f"{step}: not made; {why}", flush=True)
+        steps = [step for step in steps if step not in cannot]
+        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, None if arguments.missing else arguments.only, studies, steps)
+        failures += [f"{step}: {why}" for step, why in cannot.items() if arguments.names]
     for failure in failures:
         print(f"rebuild: {failure}", file=sys.stderr)
     return 1 if failures else 0

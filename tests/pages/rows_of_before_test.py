@@ -18,6 +18,7 @@ sys.path[:0] = [str(ROOT / "experiments/plotting"), str(ROOT / "experiments")]
 
 import census  # noqa: E402
 import judge_povray  # noqa: E402
+import maker  # noqa: E402
 import sources  # noqa: E402
 
 CENSUS = """#!/usr/bin/env python3
@@ -133,7 +134,7 @@ class Certified(Folder):
                 pass
 
         row_of = lambda name, certificate, reference: {"scene": name, "interactions": 1, "status": "done", "version": "2", "undecided": 1 / 3,  # noqa: E731
-                                                       **sources.made(certified.note_of(certificate), certified.note_of(reference))}
+                                                       **maker.made(certified.note_of(certificate), certified.note_of(reference))}
         with mock.patch("subprocess.run", run), mock.patch("subprocess.Popen", Process), mock.patch.object(certified, "row_of", row_of):
             def certify(*arguments):
                 self.call(certified, "--out", self.folder, "--work", self.folder / "work", "--cases", "ring", *arguments)

@@ -15,6 +15,8 @@ sys.path.insert(0, str(PLOTTING))
 import rebuild  # noqa: E402
 import sources  # noqa: E402
 import exact_rays  # noqa: E402
+import maker  # noqa: E402
+import noted  # noqa: E402
 from sources import Present, Tree, note_recipes, recipes_of  # noqa: E402
 
 FILES = {
@@ -59,17 +61,17 @@ class Sources(unittest.TestCase):
         for name, trace in (("a", "march"), ("b", "lines")):
             (results / name).mkdir(parents=True)
             (results / name / "report.json").write_text(json.dumps(REPORT | {"parameters": {"trace": trace}}))
-        rebuild.note_sources(results, Tree(self.root), 0.0)
-        self.assertEqual(rebuild.stale(results, Tree(self.root)), [])
+        noted.note_sources(results, Tree(self.root), 0.0)
+        self.assertEqual(noted.stale(results, Tree(self.root)), [])
         (self.root / "shaders/include/ray.glsl").write_text("vec4 ray;")
-        self.assertEqual([folder.name for folder in rebuild.stale(results, Tree(self.root))], ["a"])
+        self.assertEqual([folder.name for folder in noted.stale(results, Tree(self.root))], ["a"])
         # Runs that were there before keep their keys, and those without one have none.
         (results / "c").mkdir()
         (results / "c/report.json").write_text(json.dumps(REPORT))
-        rebuild.note_sources(results, Tree(self.root), time.time() + 60.0)
-        self.assertEqual([folder.name for folder in rebuild.stale(results, Tree(self.root))], ["a"])
-        self.assertEqual(set(json.loads((results / rebuild.SOURCES).read_text())), {"a", "b"})
-        rebuild.forget_stale(results, Tree(self.root))
+        noted.note_sources(results, Tree(self.root), time.time() + 60.0)
+        self.assertEqual([folder.name for folder in noted.stale(results, Tree(self.root))], ["a"])
+        self.assertEqual(set(json.loads((results / sources.SOURCES).read_text())), {"a", "b"})
+        noted.forget_stale(results, Tree(self.root))
         self.assertEqual({folder.name for folder in results.iterdir() if folder.is_dir()}, {"b", "c"})
 
     def test_a_studys_own_scene_is_of_its_file_and_of_what_that_extends_and_shows(self):
@@ -150,28 +152,28 @@ class Sources(unittest.TestCase):
             file.write_text("")
         with mock.patch.dict(os.environ):
             os.environ.pop("KAUSTIK_ROOT", None)
-            self.assertEqual(sources.Maker(elsewhere, self.root).sources("k"), "")
-            maker = sources.Maker(built, self.root)
-            self.assertEqual(maker.sources("k"), "k")
+            self.assertEqual(maker.Maker(elsewhere, self.root).sources("k"), "")
+            own = maker.Maker(built, self.root)
+            self.assertEqual(own.sources("k"), "k")
             (self.root / "shaders/trace/march.comp").write_text("void main() { return; }")
-            self.assertEqual(maker.sources("k"), "")
-            self.assertEqual(sources.Maker(built, self.root).sources("k"), "k")  # shaders are read as they are
+            self.assertEqual(own.sources("k"), "")
+            self.assertEqual(maker.Maker(built, self.root).sources("k"), "k")  # shaders are read as they are
             os.environ["KAUSTIK_ROOT"] = str(elsewhere.parent)
-            self.assertEqual(sources.Maker(built, self.root).sources("k"), "")
+            self.assertEqual(maker.Maker(built, self.root).sources("k"), "")
             os.environ.pop("KAUSTIK_ROOT")
             os.utime(built, (1000, 1000))
-            self.assertEqual(sources.Maker(built, self.root).sources("k"), "")
+            self.assertEqual(maker.Maker(built, self.root).sources("k"), "")
 
     def test_what_a_call_made_that_was_stopped_has_a_key_unless_sources_have_changed(self):
         marker = self.root / "out/study.since.json"
-        first = rebuild.begin_of(marker, Tree(self.root))
-        self.assertEqual(rebuild.begin_of(marker, Tree(self.root)), first)
+        first = noted.begin_of(marker, Tree(self.root))
+        self.assertEqual(noted.begin_of(marker, Tree(self.root)), first)
         (self.root / "shaders/include/ray.glsl").write_text("vec4 ray;")
-        second = rebuild.begin_of(marker, Tree(self.root))
+        second = noted.begin_of(marker, Tree(self.root))
         self.assertGreater(second, first)
-        self.assertEqual(rebuild.begin_of(marker, Tree(self.root)), second)
+        self.assertEqual(noted.begin_of(marker, Tree(self.root)), second)
         (self.root / "framework/gui/window.cpp").write_text("int other;")  # of which no key is
-        self.assertEqual(rebuild.begin_of(marker, Tree(self.root)), second)
+        self.assertEqual(noted.begin_of(marker, Tree(self.root)), second)
 
     def test_in_this_tree_a_tracers_shader_is_among_them(self):
         files = {str(file) for file in Tree().files_of({"technique": "caustic_map", "scene": {"name": "pool"}, "parameters": {"trace": "secant"}})}
@@ -197,11 +199,11 @@ class Slim(unittest.TestCase):
             head = "folder,hash,repeat,status,message,scene,frame_ms.max,device,version\n"
             slim.write_text("repeat,status,message,scene,frame_ms.max,device,version\n1,done,,ring,9,a,1\n1,done,,pool,9,a,1\n")
             runs.write_text(head + "a0,a0,1,done,,pool,8,a,2\nb0,b0,1,done,,tree,8,a,2\n")
-            (pathlib.Path(folder) / rebuild.SOURCES).write_text('{"a0": "0123456789ab"}')
+            (pathlib.Path(folder) / sources.SOURCES).write_text('{"a0": "0123456789ab"}')
             rebuild.write_slim(runs, slim, keep=True)
             rows = "repeat,status,message,scene,frame_ms.max,device,version,sources\n1,done,,pool,8,a,2,0123456789ab\n1,done,,tree,8,a,2,\n1,done,,ring,9,a,1,\n"
             self.assertEqual(slim.read_text(), rows)
-            (pathlib.Path(folder) / rebuild.SOURCES).write_text('{"c0": "ba9876543210"}')
+            (pathlib.Path(folder) / sources.SOURCES).write_text('{"c0": "ba9876543210"}')
             runs.write_text(head + "c0,c0,1,done,,tree,7,a,3\n")
             rebuild.write_slim(runs, slim, keep=True)
             self.assertEqual(slim.read_text().splitlines()[1:], ["1,done,,tree,7,a,3,ba9876543210", "1,done,,pool,8,a,2,0123456789ab", "1,done,,ring,9,a,1,"])
@@ -214,7 +216,7 @@ class Slim(unittest.TestCase):
                 {"passes": [], "device": {"renderer": "r", "cpu": "c", "threads": 2}, "size": [4, 3], "version": "1", "frame_ms": {"median": 1.0}, "scene": {"name": "pool"},
                  "timing": {"date": "2026-01-01"}, "parameters": {"trace": "bvh", "view": "bvh", "shadow": "bvh", "emit.photons": "1x1"}}))
             self.assertEqual(exact_rays.slim(run / "report.json")["sources"], "")
-            (run.parent / rebuild.SOURCES).write_text('{"a0": "0123456789ab"}')
+            (run.parent / sources.SOURCES).write_text('{"a0": "0123456789ab"}')
             self.assertEqual(exact_rays.slim(run / "report.json")["sources"], "0123456789ab")
 
     def test_leaves_errors_of_the_view_out_where_no_table_asks_for_them(self):
