@@ -9,21 +9,25 @@ For each case runs `kaustik certify` and `kaustik reference` of the same paths, 
 Two cores take an hour or two, nearly all of it for references.
 What is in WORK already is not made again, and rows of cases that are not asked for stay. `beyond`: values (pixels times channels) that
 are outside of their interval by more than z standard errors, where z is what one of that many independent normal values exceeds with a
-probability of 5 %; `largest z`: of all values. A certificate that takes more than --seconds is left as "time is up"; the next call goes on
+probability of 5 %; `largest z`: of all values. A row says when its files were made, and of which sources (plotting/sources.py: the framework,
+what certifies, the scene), as far as this program made them; with --anew what is of other sources is made again. A certificate that takes more than --seconds is left as "time is up"; the next call goes on
 with it.
 """
 
 import argparse
-import csv
 import json
 import pathlib
 import statistics
 import subprocess
+import sys
 
 import numpy as np
 import OpenImageIO
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "experiments/plotting"))
+from maker import Maker, made, rows_in, write_whole  # noqa: E402
+
 KAUSTIK = ROOT / "build/release/bin/kaustik"
 SIZE = "200x150"
 # Name: scene, interactions, band in pixels.
@@ -36,7 +40,7 @@ CASES = {
     "glass-sphere": ("glass-sphere", 2, 0.02),
 }
 COLUMNS = ["scene", "interactions", "band", "status", "lit", "median width", "p95 width", "undecided", "total width", "emitted", "deposited",
-           "reference deposited", "undecided watts", "cells", "photons", "largest z", "outside", "beyond", "version"]
+           "reference deposited", "undecided watts", "cells", "photons", "largest z", "outside", "beyond", "version", "date", "sources"]
 
 
 def picture(file: pathlib.Path) -> np.ndarray:
@@ -53,6 +57,11 @@ def departures(lower: np.ndarray, upper: np.ndarray, reference: np.ndarray, erro
     return np.divide(away, error * scale, out=np.zeros_like(away), where=known)
 
 
+def note_of(picture: pathlib.Path) -> pathlib.Path:
+    """When it was made, and of which sources."""
+    return picture.with_suffix(".made.json")
+
+
 def row_of(name: str, certificate: pathlib.Path, reference: pathlib.Path) -> dict:
     scene, interactions, band = CASES[name]
     found = json.loads(certificate.with_suffix(".json").read_text())
@@ -66,7 +75,7 @@ def row_of(name: str, certificate: pathlib.Path, reference: pathlib.Path) -> dic
             "total width": found["deposited_width"], "emitted": sum(energy["emitted_w"]) / 2, "deposited": sum(energy["deposited_w"]) / 2,
             "reference deposited": truth["energy"]["deposited_w"], "undecided watts": energy["undecided_w"], "cells": found["cells"],
             "photons": truth["photons"], "largest z": z.max(), "outside": int((z > 0).sum()), "beyond": int((z > limit).sum()),
-            "version": found["version"]}
+            "version": found["version"], **made(note_of(certificate), note_of(reference))}
 
 
 def main() -> None:
@@ -77,21 +86,27 @@ def main() -> None:
     parser.add_argument("--photons", type=int, default=1 << 30)
     parser.add_argument("--seconds", type=float, default=1800.0)
     parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--anew", action="store_true")
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     file = options.out / "certified.csv"
-    rows = {}
-    if file.exists():
-        with file.open(newline="") as stream:
-            rows = {(row["scene"], row["interactions"]): row for row in csv.DictReader(stream)}
+    rows = {(row["scene"], row["interactions"]): row for row in rows_in(file)}
+    maker = Maker(KAUSTIK)
+    if options.anew:
+        maker.require()
     for name in options.cases:
         scene, interactions, band = CASES[name]
         stem = f"{name.split(',')[0]}-{interactions}"
         certificate = options.work / f"{stem}.exr"
         reference = options.work / f"{stem}.reference.exr"
         common = [scene, "--interactions", str(interactions), "--size", SIZE, "--threads", str(options.threads)]
+        key = maker.tree.key_without_technique(scene, "framework/certify")
+        for made_before in (certificate, reference) if options.anew else ():
+            if made(note_of(made_before))["sources"] != key:
+                made_before.with_suffix(".json").unlink(missing_ok=True)
         if not reference.with_suffix(".json").exists():
             subprocess.run([KAUSTIK, "reference", *common, "--photons", str(options.photons), "--out", reference], cwd=ROOT, check=True)
+            maker.note(note_of(reference), key)
         if not certificate.with_suffix(".json").exists():
             process = subprocess.Popen([KAUSTIK, "certify", *common, "--band", str(band), "--out", certificate], cwd=ROOT)
             try:
@@ -99,16 +114,14 @@ def main() -> None:
             except subprocess.TimeoutExpired:
                 process.terminate()
                 process.wait()
+            if certificate.with_suffix(".json").exists():
+                maker.note(note_of(certificate), key)
         if certificate.with_suffix(".json").exists():
             row = row_of(name, certificate, reference)
         else:
             row = {"scene": name.split(",")[0], "interactions": interactions, "band": band, "status": "time is up"}
         rows[(row["scene"], str(interactions))] = row
-        with file.open("w", newline="") as stream:
-            writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            for key in sorted(rows):
-                writer.writerow({column: f"{value:.7g}" if isinstance(value, float) else value for column, value in rows[key].items()})
+        write_whole(file, COLUMNS, [{column: f"{value:.7g}" if isinstance(value, float) else value for column, value in rows[of].items()} for of in sorted(rows)])
 
 
 if __name__ == "__main__":

@@ -18,12 +18,12 @@ The ± of each is its standard error: what it would vary by over other stretches
 of consecutive frames (Künsch 1989), since a frame resembles the next. Blocks of a third of a second are shorter than the longest waves' periods, so that
 it is rather too small; it says nothing of other scenes.
 
-References are kept (~/.cache/kaustik), and a row that is in OUT already, with the same settings, is not made again: it can be interrupted. No times are taken, so that
-the machine need not be idle; on two cores without a GPU half an hour.
+References are kept (~/.cache/kaustik), and a row that is in OUT already, with the same settings, is not made again: it can be interrupted. With --anew those are
+that are of other sources than the tree's (plotting/sources.py), or of none that are known. No times are taken, so that the machine need not be idle; on two cores
+without a GPU half an hour.
 """
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -33,10 +33,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parent / "plotting"))
 import drawings  # noqa: E402
 import kaustik  # noqa: E402
 from figures import COLORS, MARKERS, plt  # noqa: E402
+from maker import Maker, now, rows_in, write_whole  # noqa: E402
 
 SETTINGS = ["scene", "technique", "as_published", "frames", "time_step", "size", "photons", "reference_photons"]
 MEANS = ["relMSE", "change", "wrong change"]
-COLUMNS = [*SETTINGS, "status", "message", *(column for mean in MEANS for column in (mean, f"{mean} ±")), "version"]
+OF_THE_RUN = ["version", "device", "date", "sources"]
+COLUMNS = [*SETTINGS, "status", "message", *(column for mean in MEANS for column in (mean, f"{mean} ±")), *OF_THE_RUN]
 BLOCKS = 6  # of frames, for the standard errors: ten frames of 60, a third of a second
 
 
@@ -92,19 +94,24 @@ def traced(scene: str, options) -> Truth:
                  np.stack([np.asarray(one.standard_error)[..., :3] for one in made]))
 
 
-def rendered(scene: str, technique: str, as_published: bool, options) -> np.ndarray:
+def set_up(renderer, scene: str, options) -> dict:
+    """Gives what the key of its sources is of, as a report has it."""
+    takes_grid = renderer.technique not in ("vertex_caustics", "adaptive_caustic_map")
+    if takes_grid:
+        renderer.set("emit.photons", options.photons)
+    # Only the caustic is judged: what is seen through water, and scattered towards the eye, is not made.
+    renderer.set("media", "none")
+    renderer.set("view", "interface")
+    parameters = {param["name"]: str(param["value"]) for param in renderer.params() if "." not in param["name"]}
+    return {"technique": renderer.technique, "scene": {"name": scene}, "parameters": parameters}
+
+
+def rendered(renderer, options) -> np.ndarray:
     """The caustic's irradiance of every frame, in their order: filters over time remember."""
-    with kaustik.open(scene, size=numbers(options.size), technique=technique, as_published=as_published, time=0.0) as renderer:
-        takes_grid = technique not in ("vertex_caustics", "adaptive_caustic_map")
-        if takes_grid:
-            renderer.set("emit.photons", options.photons)
-        # Only the caustic is judged: what is seen through water, and scattered towards the eye, is not made.
-        renderer.set("media", "none")
-        renderer.set("view", "interface")
-        images = []
-        for frame in range(options.frames):
-            renderer.step(time=frame * options.time_step)
-            images.append(np.array(renderer.read("caustic.irradiance"))[..., :3])
+    images = []
+    for frame in range(options.frames):
+        renderer.step(time=frame * options.time_step)
+        images.append(np.array(renderer.read("caustic.irradiance"))[..., :3])
     return np.stack(images).astype(np.float64)
 
 
@@ -142,10 +149,12 @@ def main() -> int:
     parser.add_argument("--size", default="200x150")
     parser.add_argument("--photons", default="256x256")
     parser.add_argument("--reference-photons", type=int, default=1 << 20)
+    parser.add_argument("--anew", action="store_true")
     options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
     file = options.out / "flicker.csv"
-    rows = list(csv.DictReader(file.open(newline=""))) if file.exists() else []
+    rows, maker = rows_in(file), Maker(kaustik._kaustik.__file__)
+    if options.anew:
+        maker.require()
     for scene in options.scenes:
         truth = None
         for technique in options.techniques:
@@ -154,21 +163,23 @@ def main() -> int:
                        "time_step": options.time_step, "size": options.size, "photons": options.photons,
                        "reference_photons": options.reference_photons, "version": kaustik.__version__}
                 same = [old for old in rows if all(str(row[key]) == str(old[key]) for key in SETTINGS)]
-                if any(old["status"] == "done" and old.get("relMSE ±") for old in same):
+                is_done = any(old["status"] == "done" and old.get("relMSE ±") for old in same)
+                if is_done and not options.anew:
                     continue
-                rows = [old for old in rows if old not in same]
                 try:
-                    images = rendered(scene, technique, published, options)
+                    with kaustik.open(scene, size=numbers(options.size), technique=technique, as_published=published, time=0.0) as renderer:
+                        key = maker.tree.key_of(set_up(renderer, scene, options))
+                        if is_done and all(old.get("sources") == key for old in same):
+                            continue
+                        row |= {"device": renderer.device, "date": now()}
+                        images = rendered(renderer, options)
                     truth = truth or traced(scene, options)
-                    row |= {"status": "done", **{key: f"{value:.4g}" for key, value in truth.judge(images).items()}}
+                    row |= {"status": "done", "sources": maker.sources(key), **{key: f"{value:.4g}" for key, value in truth.judge(images).items()}}
                 except kaustik.ConfigError as error:
                     row |= {"status": "refused", "message": str(error)}
-                rows.append(row)
-                with file.open("w", newline="", encoding="utf-8") as stream:
-                    writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
-                    writer.writeheader()
-                    writer.writerows(rows)
-                print(*(row.get(key, "") for key in (*SETTINGS[:3], *COLUMNS[len(SETTINGS):-1])), sep=", ", flush=True)
+                rows = [*(old for old in rows if old not in same), row]
+                write_whole(file, COLUMNS, rows)
+                print(*(row.get(key, "") for key in (*SETTINGS[:3], *COLUMNS[len(SETTINGS):-len(OF_THE_RUN)])), sep=", ", flush=True)
     if len({tuple(str(row[key]) for key in SETTINGS[3:]) for row in rows}) > 1:
         sys.exit(f"flicker: the rows of {file} are of different settings, and are not drawn together")
     draw(rows, options.out / "flicker.svg")

@@ -7,7 +7,8 @@
 The error that is asked for is 1.5 times what the default has with 256x256 photons, net of the reference's noise, by the study's rows
 (results/all_techniques/runs.csv). The best of the study is the technique whose curve, by default and as published, is at that error first, with the photons
 that a line between its runs in the logarithms of photons and error gives. Both are then rendered in turn, and their ratio of times is the mean of the rounds',
-with its interval at 95 of 100. A row a scene; rows of other scenes are left as they are. On an idle machine.
+with its interval at 95 of 100. A row a scene; rows of other scenes are left as they are. `sources`: the key of the tuned runs and of the best's (plotting/sources.py).
+On an idle machine.
 """
 
 import argparse
@@ -24,6 +25,7 @@ from collections import defaultdict
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "experiments/plotting"), str(ROOT / "experiments")]
+from maker import Maker  # noqa: E402
 from speed_error import DEFAULT, net, number, rows_of  # noqa: E402
 from table import CAUSTIC  # noqa: E402
 from two_builds import interval, rows_of_others, write_rows  # noqa: E402
@@ -31,7 +33,7 @@ from two_builds import interval, rows_of_others, write_rows  # noqa: E402
 SCENES = ["cornell-bunny", "glass-sphere", "glass-teapot", "pool"]
 SIZE, REFERENCE_PHOTONS = "400x300", "16777216"  # as the study has them
 COLUMNS = ["scene", "relMSE asked", "tuned", "tuned, photons", "tuned, relMSE", "tuned, ms", "best of the study", "best, photons", "best, relMSE", "best, ms",
-           "ratio", "low", "high", "rounds", "minutes to tune", "device", "version", "date", "other_processors"]
+           "ratio", "low", "high", "rounds", "minutes to tune", "device", "version", "date", "other_processors", "sources"]
 
 
 def side_of(row: dict) -> int | None:
@@ -77,7 +79,7 @@ def render(options, scene: str, settings: dict, folder: str) -> dict:
     return {"ms": sum(one["gpu_ms"]["median"] for one in passes), "error": error["rel_mse"] - error["truth_noise"]["rel_mse"], "report": report}
 
 
-def row_of(options, scene: str) -> dict:
+def row_of(options, scene: str, maker: Maker) -> dict:
     study = [row for row in rows_of(ROOT / "results/all_techniques/runs.csv") if row["scene"] == scene]
     default = next(row for row in study if row["technique"] == DEFAULT and row["emit.photons"] == "256x256")
     error, begin = 1.5 * net(default), time.monotonic()
@@ -98,10 +100,11 @@ def row_of(options, scene: str) -> dict:
     for name, settings in picks.items():
         row |= {f"{name}, photons": settings["emit.photons"], f"{name}, relMSE": f"{runs[name][0]['error']:.3g}",
                 f"{name}, ms": f"{statistics.median(run['ms'] for run in runs[name]):.1f}"}
+    keys = dict.fromkeys(maker.sources(maker.tree.key_of(of[-1]["report"])) for of in runs.values())
     load = max(run["report"]["timing"].get("other_processors", 0.0) for of in runs.values() for run in of)
     return row | {"ratio": f"{ratio:.3f}", "low": f"{low:.3f}", "high": f"{high:.3f}", "rounds": options.rounds, "minutes to tune": f"{minutes:.1f}",
                   "device": f"{device['renderer']}, {device['cpu']}, {device['threads']} threads", "version": report["version"],
-                  "date": report["timing"]["date"], "other_processors": f"{load:.2f}"}
+                  "date": report["timing"]["date"], "other_processors": f"{load:.2f}", "sources": " ".join(filter(None, keys))}
 
 
 def main() -> int:
@@ -112,9 +115,9 @@ def main() -> int:
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "results/runs/tuned")
     parser.add_argument("--csv", type=pathlib.Path, default=ROOT / "results/all_techniques/tuned.csv")
     options = parser.parse_args()
-    rows = rows_of_others(options.csv, options.scenes)
+    rows, maker = rows_of_others(options.csv, options.scenes), Maker(options.kaustik)
     for scene in options.scenes:
-        rows.append(row_of(options, scene))
+        rows.append(row_of(options, scene, maker))
         print(scene, rows[-1]["ratio"], flush=True)
         write_rows(options.csv, COLUMNS, rows)
     return 0

@@ -32,10 +32,12 @@ import numpy as np
 import drawings
 from figures import COLORS, plt
 from pictures import find_image, read_image
+from sources import keys_noted
+from study import device_of
 
 FEWEST = 8  # runs: three counts of photons, two repeats of the middle one, the same three with finer pixels
 PARTS = ("noise", "photons", "pixels", "stays")
-COLUMNS = ("scene", "technique", "status", "relMSE", *PARTS, "extrapolated", "version")
+COLUMNS = ("scene", "technique", "status", "relMSE", *PARTS, "extrapolated", "version", "device", "sources", "date", "other_processors")
 
 
 class Runs:
@@ -113,7 +115,18 @@ def parts_of(runs: Runs) -> dict:
             "stays": limit - pixels, "extrapolated": str(extrapolated).lower()}
 
 
+def of_the_runs(group: list[dict], keys: dict[str, str]) -> dict:
+    """What a line says of its runs: what all of them have, the last day, the most that other work took. Of several sources, or of one that is not known, none."""
+    def shared(values: set[str]) -> str:
+        return values.pop() if len(values) == 1 else ""
+
+    return {"version": group[0].get("version", ""), "device": shared({device_of(row) for row in group}),
+            "sources": shared({keys.get(row.get("folder", ""), "") for row in group}), "date": max(row.get("date") or "" for row in group),
+            "other_processors": max((row.get("other_processors") or "" for row in group), key=lambda load: float(load or -1.0))}
+
+
 def tabled(results: Path) -> list[dict]:
+    keys = keys_noted(results)
     with (results / "runs.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     by = defaultdict(list)
@@ -122,7 +135,7 @@ def tabled(results: Path) -> list[dict]:
     wanted = max(len(group) for group in by.values())
     table = []
     for (scene, technique), group in sorted(by.items()):
-        line = {"scene": scene, "technique": technique, "version": group[0].get("version", "")}
+        line = {"scene": scene, "technique": technique, **of_the_runs(group, keys)}
         failed = next((row for row in group if row["status"] != "done"), None)
         if failed or len(group) < wanted:
             line["status"] = failed["message"].split(",")[0] if failed else f"{len(group)} of {wanted} runs are there"

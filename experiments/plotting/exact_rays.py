@@ -18,8 +18,10 @@ import json
 import pathlib
 import sys
 
+from sources import keys_noted
+
 COLUMNS = ["scene", "trace", "view", "shadow", "size", "emit.photons", "relMSE", "wrong hits", "view relMSE", "wrong shadows", "ms", "trace, ms",
-           "view, ms", "shadow, ms", "layers, ms", "reconstruct, ms", "geometry, ms", "device", "version", "date", "other_processors"]
+           "view, ms", "shadow, ms", "layers, ms", "reconstruct, ms", "geometry, ms", "device", "version", "date", "other_processors", "sources"]
 WAYS = {("hierarchical", "refraction", "map"): "fragments", ("hierarchical_compute", "refraction", "map"): "compute",
         ("raytraced", "refraction", "map"): "processor", ("bvh", "refraction", "map"): "exact photons", ("bvh", "bvh", "bvh"): "all exact",
         ("raytraced", "bvh", "bvh"): "all by the processor"}
@@ -52,7 +54,8 @@ def slim(file: pathlib.Path) -> dict:
            "view relMSE": digits(below(report, "error", "view", "radiance", "rel_mse")),
            "wrong shadows": digits(below(report, "error", "shadow", "misclassified")), "ms": digits(report["frame_ms"]["median"]),
            "device": f"{device['renderer']}, {device['cpu']}, {device['threads']} threads", "date": report["timing"]["date"],
-           "other_processors": digits(below(report, "timing", "other_processors"))}
+           "other_processors": digits(below(report, "timing", "other_processors")),
+           "sources": keys_noted(file.parents[1]).get(file.parent.name, "")}
     row |= {key: report["parameters"][key] for key in ("trace", "view", "shadow", "emit.photons")}
     return row | {f"{stage}, ms": digits(passes.get(stage, 0.0)) for stage in ("trace", "view", "shadow", "layers", "reconstruct", "geometry")}
 

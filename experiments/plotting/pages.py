@@ -43,14 +43,12 @@ import studies
 from quantities import NUMBER, formatted, source_of, text_of
 from sentences import unnamed
 from studies import anchor_of, command_of, seeds_of
-from views import PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
+from views import BUSY, PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Pages that a program writes as a whole.
 WRITTEN = ("numerics.md", studies.PAGE)
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
-# So many processors are busy on an idle machine too.
-BUSY = 0.2
 KEYS = {"file", "rows", "where", "across", "cells", "names", "by", "columns", "words"}
 
 
@@ -125,7 +123,7 @@ def as_it_stands(spec: dict, file: str, anew: str, results: pathlib.Path) -> str
     rows = chosen(runs(results / file), spec.get("where", {}))
     if not rows:
         raise PageError(f"no row of '{file}' has these settings")
-    columns = spec.get("columns") or [name for name in rows[0] if name not in PROVENANCE]
+    columns = spec.get("columns") or [name for name in rows[0] if name not in (*PROVENANCE, "sources")]
     names, words = spec.get("names", {}), spec.get("words", [])
     lines = ["| " + " | ".join(names.get(name, name) for name in columns) + " |", "|" + " --- |" * len(columns)]
     for row in rows:

@@ -1,38 +1,43 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs studies and makes of them what stands in results/.
+"""Runs studies and makes of them what stands in results/; then calls the programs of all else that is there (result_steps.py).
 
-    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [--missing | --only KEY=VALUE]... [STUDY...]
+    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N | --missing | --only KEY=VALUE]... [STUDY | STEP]...
     rebuild.py --list
     rebuild.py --stale [--out results/runs/experiments] [STUDY...]
-    rebuild.py --quick [--out DIR] [STUDY...]
+    rebuild.py --quick [--out DIR] [STUDY | STEP]...
 
-Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from
-the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many runs of a study are of
-other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --only
-those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all others; with
---missing those that the CSV has no row of (studies.md names them). With --shard
-only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
---quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
-of results/ still work, in minutes. Ends with 1 where something does not.
+Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from the CSVs
+(pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many rows of a study are of the
+tree's sources, in a fresh clone too, and how many runs below OUT are of others; --anew makes those again, and no others. A study of which runs have failed
+keeps them as rows with their message.
+With --only those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all
+others; with --missing those that the CSV has no row of (studies.md names them), or, with --anew too, no row that is known to be of the tree's sources: so a
+clone without any run makes what is no longer true, and nothing else. With --shard only the K-th of N equal parts is run and nothing is written to results/;
+when all are done, run without.
+Steps are what no study makes: censuses, certificates, pictures; --list names them. Without names all studies are run and then all steps, but for those that
+need what is not here, which it says; with --only, --missing or --shard no step is.
+--quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands of
+results/ still work, in minutes; of steps only whether their programs are there and take what they are called with. Ends with 1 where something does not.
 """
 
 import argparse
 import csv
 import json
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
-import time
 import tomllib
 
-from sources import Tree
+from maker import rows_in
+from noted import begin_of, forget_stale, judged, note_sources, of_tree, recipes_in, reports_of, stale
+from result_steps import STEPS, described, make, missing_for, wrong_with
+from sources import RECIPES, Present, Tree, keys_noted, note_recipes, recipes_of
 from study import device_of
 from study_plan import missing_of
 from table import rounded, rows_of_others
-from views import PageError, printed, recorded_of, rows_of
+from views import BUSY, PageError, printed, recorded_of, rows_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLOTTING = ROOT / "experiments/plotting"
@@ -94,7 +99,6 @@ PRINTED = ("umenhoffer2008_grazing", "umenhoffer2008_merge", "umenhoffer2008_rea
 # Whose tables say where the eye's rays go; other files of all of runs.csv are without that.
 OF_THE_VIEW = ("krueger2006_refraction",)
 
-SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
          "refine.finest": 64, "refine.start": 16, "refine.check": 32, "reconstruct.map_size": 128, "around.cubes.size": 64}
 
@@ -138,39 +142,10 @@ def small(study: pathlib.Path) -> str:
     return "\n".join([*lines, *(f"{json.dumps(key)} = {toml(value)}" for key, value in run.items())]) + "\n"
 
 
-def reports_of(results: pathlib.Path) -> dict[str, pathlib.Path]:
-    return {report.parent.name: report for report in results.glob("*/report.json")}
-
-
-def stale(results: pathlib.Path, tree: Tree) -> list[pathlib.Path]:
-    """The folders of runs that were made by other sources than the tree's now. Of a run without a key nothing is known: it stays."""
-    if not (results / SOURCES).is_file():
-        return []
-    keys = json.loads((results / SOURCES).read_text())
-    return [report.parent for name, report in reports_of(results).items()
-            if name in keys and keys[name] != tree.key_of(json.loads(report.read_text()))]
-
-
-def note_sources(results: pathlib.Path, tree: Tree, since: float) -> None:
-    """Writes down the key of runs that were made since then, by the tree as it is; those of before keep theirs, or have none."""
-    file = results / SOURCES
-    keys = json.loads(file.read_text()) if file.is_file() else {}
-    keys |= {name: tree.key_of(json.loads(report.read_text())) for name, report in reports_of(results).items()
-             if report.stat().st_mtime >= since}
-    file.write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
-
-
-def forget_stale(results: pathlib.Path, tree: Tree) -> None:
-    folders = stale(results, tree)
-    for folder in folders:
-        shutil.rmtree(folder)
-    if folders:
-        print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
-
-
 def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_the_view: bool = True) -> None:
-    """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small. `keep`: with the rows that the
-    file has of other runs. Without `of_the_view` errors of what the eye sees are left out too."""
+    """As it is, but for the constants of the errors' formulas and where its folders are, with five digits a number: what is committed has to be small.
+    Where runs have keys of their sources, rows have them last. `keep`: with the rows that the file has of other runs. Without `of_the_view` errors of what the eye
+    sees are left out too."""
     def stays(name: str) -> bool:
         return name not in ("folder", "hash") and ".formulas." not in name and (of_the_view or not name.startswith("error.view."))
 
@@ -179,6 +154,9 @@ def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False, of_
         reader = csv.DictReader(stream)
         rows = list(reader)
     columns, kept = [name for name in reader.fieldnames if stays(name)], []
+    if (keys := keys_noted(runs.parent)) and "sources" not in columns:
+        columns.append("sources")
+        rows = [row | {"sources": keys.get(row["folder"], "")} for row in rows]
     if keep and target.is_file():
         with target.open(newline="", encoding="utf-8") as stream:
             before = list(csv.DictReader(stream))
@@ -224,6 +202,8 @@ def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
             runs = [row for row in csv.DictReader(stream) if row["status"] == "done"]
         of_runs = {"command": f"experiments/rebuild_results.sh {study}", "version": runs[0]["version"], "device": device_of(runs[0]),
                    "seed": runs[0].get("seed", ""), "date": max(row.get("date", "") for row in runs)[:10]}
+        loads = [float(row["other_processors"]) for row in runs if row.get("other_processors")]
+        of_runs |= {"other_processors": f"{max(loads):.1f}"} if loads and max(loads) > BUSY else {}
         rows = [{**{key: cell for key, cell in row.items() if key != "under"}, **of_runs} for row in rows_of(printed(program, target.stem, results))]
         with kept.open("w", newline="", encoding="utf-8") as stream:
             writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
@@ -231,8 +211,8 @@ def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
             writer.writerows(rows)
 
 
-def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[str]:
-    failures = []
+def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str], steps: list[str]) -> list[str]:
+    failures = [f"{step}: {what}" for step in steps for what in wrong_with(STEPS[step])]
     for study in studies:
         file = out / f"{study}.toml"
         file.write_text(small(ROOT / f"experiments/{study}.toml"))
@@ -254,9 +234,11 @@ def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[
     return failures
 
 
-def compare_with_light_tracer(kaustik: pathlib.Path) -> None:
+def compare_with_light_tracer(kaustik: pathlib.Path, anew: bool, scenes: list[str]) -> None:
+    """`anew`: its rows of other sources too, of these scenes where a part is made."""
     light_tracer = ROOT / "results/all_techniques/light_tracer.csv"
-    call(sys.executable, "-B", ROOT / "experiments/light_tracer.py", "--kaustik", kaustik, "--out", light_tracer)
+    call(sys.executable, "-B", ROOT / "experiments/light_tracer.py", "--kaustik", kaustik, "--out", light_tracer,
+         *(["--anew"] if anew else []), *(["--scenes", *scenes] if scenes else []))
     call(sys.executable, "-B", PLOTTING / "speed_error.py")
 
 
@@ -266,28 +248,28 @@ def conditions_of(run: dict) -> list[str]:
     return [word for key, text in texts.items() for word in ("--only", f"{key}={text}")]
 
 
-def missing_parts(study: str) -> list[list[str]]:
-    """The conditions of each run that the study's CSV has no row of; of a study without a CSV, none: all runs are."""
-    target = ROOT / "results" / STUDIES[study]
-    if not target.is_file():
+def missing_parts(study: str, present: Present | None = None) -> list[list[str]]:
+    """The conditions of each run that the study's CSV has no row of, or none that is `present`; where it has no such row at all, none: all runs are."""
+    described_study = tomllib.loads((ROOT / f"experiments/{study}.toml").read_text())
+    rows = tuple(row for row in rows_in(ROOT / "results" / STUDIES[study]) if present is None or of_tree(described_study, row, present))
+    if not rows:
         return [[]]
-    with target.open(newline="", encoding="utf-8") as stream:
-        rows = tuple(csv.DictReader(stream))
-    _, missing = missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows)
+    _, missing = missing_of(described_study, rows)
     if missing and study in RUNS and "as_published" not in rows[0]:
         raise Failure(f"{study}: the rows of results/{STUDIES[study]} are of a version that did not write all settings, so that {len(missing)} that are missing "
                       "cannot stand next to them; make it whole, without --missing")
     return [conditions_of(run) for run in missing]
 
 
-def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str] | None, studies: list[str]) -> list[str]:
+def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str] | None, studies: list[str],
+            steps: list[str]) -> list[str]:
     """`only`: conditions; None: what is missing."""
     failures = []
     for study in studies:
-        tree, begin = Tree(), time.time()
+        tree = Tree()
         of_all = ["--shard", shard] if shard else [word for condition in only or [] for word in ("--only", condition)]
         try:
-            parts = missing_parts(study) if only is None else [of_all]
+            parts = [of_all] if only is not None else missing_parts(study, Present(tree, recipes_of(ROOT / "results" / RECIPES)) if anew else None)
         except Failure as failure:
             failures.append(str(failure))
             continue
@@ -297,29 +279,42 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             continue
         if anew:
             forget_stale(out / study, tree)
+        marker = out / f"{study}{'-' + shard.replace('/', '-of-') if shard else ''}.since.json"
+        begin = begin_of(marker, tree)
         for part in parts:
             try:
                 call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
             except Failure as failure:
                 failures.append(f"{study}: {failure}")  # whose rows say why; the others count
-        if (out / study).is_dir():
+        if not tree.has_built(kaustik):
+            print(f"{study}: '{kaustik}' is of another tree; its rows have no keys of sources", flush=True)
+        elif Tree().fingerprint() != tree.fingerprint():
+            failures.append(f"{study}: sources were changed while it ran; its new runs are of none that are known")
+        elif (out / study).is_dir():
             note_sources(out / study, tree, begin)
+        marker.unlink(missing_ok=True)
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:
             csv_of(out / study, study, ROOT / "results" / STUDIES[study], is_part)
+            note_recipes(ROOT / "results" / RECIPES, recipes_in(out / study, tree))
             if not is_part:  # of a part no whole table can be printed
                 record(out / study, study, ROOT / "results" / STUDIES[study])
             if study == "bias":
                 call(sys.executable, "-B", PLOTTING / "bias.py", out / study, "--out", ROOT / "results/bias")
             if study in ("all_techniques", "best_mixtures"):
-                compare_with_light_tracer(kaustik)
+                compare_with_light_tracer(kaustik, anew, [condition.removeprefix("scene=") for condition in only or [] if condition.startswith("scene=")])
             if study == "best_mixtures_choice":
                 call(sys.executable, "-B", PLOTTING / "best_mixtures.py", ROOT / "results" / STUDIES[study],
                      "--study", ROOT / "experiments/best_mixtures.toml")
             print(f"{study}: results/{STUDIES[study]}", flush=True)
         except (Failure, PageError) as failure:
             failures.append(f"{study}: {failure}")
+    for step in steps:
+        if wrong := make(STEPS[step], kaustik, anew):
+            failures.append(f"{step}: {wrong}")
+        else:
+            print(f"{step}: results/{STEPS[step].makes}", flush=True)
     try:
         if not shard:
             call(sys.executable, "-B", PLOTTING / "pages.py")
@@ -339,39 +334,53 @@ def main() -> int:
     parser.add_argument("--stale", action="store_true")
     parser.add_argument("--anew", action="store_true")
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("studies", nargs="*", metavar="STUDY")
+    parser.add_argument("names", nargs="*", metavar="STUDY | STEP")
     arguments = parser.parse_args()
-    if unknown := set(arguments.studies) - set(STUDIES | DEVICE if arguments.quick else STUDIES):
-        sys.exit(f"rebuild: there is no study '{sorted(unknown)[0]}'; --list names them")
-    studies = arguments.studies or list(STUDIES)
+    if unknown := set(arguments.names) - set(STUDIES | DEVICE if arguments.quick else STUDIES) - set(STEPS):
+        sys.exit(f"rebuild: there is no study or step '{sorted(unknown)[0]}'; --list names them")
+    studies = [name for name in arguments.names if name not in STEPS] if arguments.names else list(STUDIES)
+    steps = [name for name in arguments.names if name in STEPS] if arguments.names else list(STEPS)
     if arguments.list:
-        print("\n".join(f"{study:32} results/{STUDIES[study]}" for study in studies))
+        print("\n".join([*(f"{study:32} results/{STUDIES[study]}" for study in studies), *map(described, steps)]))
         return 0
     kaustik = arguments.kaustik.resolve()
     if arguments.stale:
         tree, out = Tree(), (arguments.out or ROOT / "results/runs/experiments").resolve()
+        present = Present(tree, recipes_of(ROOT / "results" / RECIPES))
         for study in studies:
+            counts = judged(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows_in(ROOT / "results" / STUDIES[study]), present)
+            parts = [", ".join(f"{count} {what}" for what, count in counts.items() if count) or "no rows"]
             if reports := reports_of(out / study):
-                print(f"{study:32} {len(stale(out / study, tree))} of {len(reports)} runs")
+                parts.append(f"of {len(reports)} runs there {len(stale(out / study, tree))} are of others")
+            print(f"{study:32} {'; '.join(parts)}")
         return 0
     if arguments.quick:
         with tempfile.TemporaryDirectory() as folder:
             out = arguments.out.resolve() if arguments.out else pathlib.Path(folder)
             out.mkdir(parents=True, exist_ok=True)
-            failures = quick(kaustik, out, arguments.studies or [*STUDIES, *DEVICE])
+            failures = quick(kaustik, out, studies if arguments.names else [*STUDIES, *DEVICE], steps)
     else:
-        if arguments.only and (len(arguments.studies) != 1 or arguments.studies[0] in REPORTS):
+        if arguments.only and (len(studies) != 1 or studies[0] in REPORTS):
             sys.exit("rebuild: --only is of one study, whose CSV has a row a run; name it")
-        if arguments.missing and (arguments.only or arguments.shard or arguments.anew):
-            sys.exit("rebuild: --missing says by itself which runs are made: it goes with no --only, --shard or --anew")
+        if arguments.only or arguments.missing or arguments.shard:  # parts, of studies
+            if steps and arguments.names:
+                sys.exit(f"rebuild: '{steps[0]}' is no study: it has no --only, --missing or --shard")
+            steps = []
+        if arguments.missing and (arguments.only or arguments.shard):
+            sys.exit("rebuild: --missing says by itself which runs are made: it goes with no --only or --shard")
         if arguments.missing:
             studies = [study for study in studies if study not in REPORTS]
         if arguments.anew and arguments.shard:
             sys.exit("rebuild: --anew with --shard would take from other shards what they have made")
-        if kaustik.stat().st_mtime < Tree().newest_source():
-            sys.exit(f"rebuild: '{kaustik}' is older than the sources; build it first")
+        if not kaustik.is_file() or kaustik.stat().st_mtime < Tree().newest_source():
+            sys.exit(f"rebuild: '{kaustik}' is not there, or older than the sources; build it first")
         out = (arguments.out or ROOT / "results/runs/experiments").resolve()
-        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, None if arguments.missing else arguments.only, studies)
+        cannot = {step: why for step in steps if (why := missing_for(STEPS[step], bool(arguments.names)))}
+        for step, why in cannot.items():
+            print(f"{step}: not made; {why}", flush=True)
+        steps = [step for step in steps if step not in cannot]
+        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, None if arguments.missing else arguments.only, studies, steps)
+        failures += [f"{step}: {why}" for step, why in cannot.items() if arguments.names]
     for failure in failures:
         print(f"rebuild: {failure}", file=sys.stderr)
     return 1 if failures else 0

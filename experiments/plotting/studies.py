@@ -22,6 +22,7 @@ DERIVED = {"device/h100_errors.csv": "device_errors.toml", "device/h100_times.cs
            "certified.csv": "certified.py", "costs/passes.csv": "costs.sh", "census/classes.csv": "census.py", "census/techniques.csv": "census.py",
            **{f"all_techniques/{name}.csv": "plotting/speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "published", "summary", "to_error")}}
 PAGE = "studies.md"
+DAYS = 3  # that are named of a study's rows
 
 
 def command_of(file: str) -> str:
@@ -66,6 +67,23 @@ def said(rows: tuple[dict, ...], key: str) -> list[str]:
     return sorted({row[key] for row in rows if row.get(key)})
 
 
+def sources_of(rows: tuple[dict, ...]) -> str:
+    """Of how many rows the sources are known (sources.py), and of which days, the newest first, these are. It does not say which of them are those of the tree: that
+    would change with every change of it; `rebuild_results.sh --stale` does."""
+    by_day: dict[str, list[str]] = collections.defaultdict(list)
+    for row in rows:
+        if row.get("sources"):
+            by_day[row.get("date", "")[:10]].append(row["sources"])
+    if not by_day:
+        return "sources of no row are known"
+    days = sorted(by_day, reverse=True)
+    parts = [f"{len(by_day[day])} of {day or 'a day that was not kept'} ({len(set(by_day[day]))} {'key' if len(set(by_day[day])) == 1 else 'keys'})" for day in days[:DAYS]]
+    if others := days[DAYS:]:
+        parts.append(f"{sum(len(by_day[day]) for day in others)} of {len(others)} other {'day' if len(others) == 1 else 'days'}")
+    unknown = len(rows) - sum(map(len, by_day.values()))
+    return f"sources of {'all' if not unknown else len(rows) - unknown} rows are known: {', '.join(parts)}" + (f"; of {unknown} they are not" if unknown else "")
+
+
 def section(results: pathlib.Path, file: str, shown: list[str]) -> str:
     rows = runs(results / file)
     study = next((study for study, target in STUDIES.items() if target == file), None)
@@ -75,6 +93,7 @@ def section(results: pathlib.Path, file: str, shown: list[str]) -> str:
               (f", by {made}" if made else "".join(f", by `{command}`" for command in said(rows, "command")))]
     if study:
         lines.append(f"- {state_of(study, rows)}")
+        lines.append(f"- {sources_of(rows)}")
     dates = [date[:10] for date in said(rows, "date")]
     of = [*(f"version {version}" for version in said(rows, "version")), *said(rows, "device"), *([f"seed {seed}" for seed in said(rows, "seed")] or filter(None, [seeds_of(file)])),
           *([dates[0] if dates[0] == dates[-1] else f"{dates[0]} to {dates[-1]}"] if dates else ["of a day that was not kept"])]
@@ -101,7 +120,9 @@ def page_of(results: pathlib.Path) -> str:
         (parts if missing else whole).append((study, file))
     head = ["# Studies and their files", "",
             "By which command each file of these pages is made, how much of its study is done, of which version, device and days it is, and where it is shown; numbers in sentences lead here. Made by "
-            "`experiments/plotting/pages.py` of the files and of the studies in `experiments/`. A file that ends in `_recorded.csv` is a table as it was once printed; the others have a row a run.", "",
+            "`experiments/plotting/pages.py` of the files and of the studies in `experiments/`. A file that ends in `_recorded.csv` is a table as it was once printed; the others have a row a run. "
+            "A row's sources have a key, of the framework, its technique's nodes and its scene: those of one day and of several scenes have several. `experiments/rebuild_results.sh --stale` "
+            "says which rows are of the sources as they are now.", "",
             f"Of {len(STUDIES)} studies {len(whole)} are done as a whole, {len(parts)} in part" + (": " if parts else "") +
             ", ".join(f"[{study}](#{anchor_of(file)})" for study, file in parts) + "." +
             (f" Not there yet, or only as a table that was recorded: {', '.join(absent)}." if absent else ""), ""]

@@ -14,10 +14,10 @@ scatters; and of what the eye sees through specular surfaces (view); their sprea
 
 import argparse
 import csv
-import json
 import sys
 from pathlib import Path
 
+from sources import keys_noted
 from study import device_of
 
 CAUSTIC = ("geometry.", "driver.", "emit.", "refine.", "around.", "generator.", "specular.", "light.",
@@ -159,8 +159,7 @@ def main() -> int:
     if not rows or "message" not in rows[0] or "frame_ms.max" not in rows[0]:
         print(f"table: '{table}' has no runs of a study", file=sys.stderr)
         return 1
-    keys = table.with_name("sources.json")  # rebuild.py
-    sources = json.loads(keys.read_text()) if keys.is_file() else {}
+    sources = keys_noted(table.parent)
     for row in rows:
         row["sources"] = sources.get(row.get("folder"), "")
         row["device"] = device_of(row)

@@ -18,6 +18,8 @@ from table import MEASURED
 PLOTTING = pathlib.Path(__file__).resolve().parent
 # Columns of a recorded table that say what it is of.
 PROVENANCE = ("command", "version", "device", "seed", "date", "other_processors")
+# So many processors are busy on an idle machine too.
+BUSY = 0.2
 COMMENT = re.compile(r"<!--.*?-->", re.S)
 
 

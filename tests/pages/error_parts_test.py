@@ -2,6 +2,7 @@
 """The parts of an error, of pictures of which they are known."""
 
 import csv
+import json
 import pathlib
 import subprocess
 import sys
@@ -89,6 +90,17 @@ class ErrorParts(unittest.TestCase):
         self.check(table["first"], stays=0.01)
         self.check(table["second"], stays=0.04)
         self.assertEqual(set(self.parts()), {"second"})
+
+    def test_a_line_says_what_its_runs_are_of(self):
+        self.add("stays", lambda count: grey(8, 6, 1.1), lambda count: grey(16, 12, 1.1))
+        for at, row in enumerate(self.rows):
+            row |= {"device": "d", "date": f"2026-01-0{at + 1}", "other_processors": f"0.{at}"}
+        keys = {row["folder"]: "0123456789ab" for row in self.rows}
+        (self.folder / "sources.json").write_text(json.dumps(keys))
+        row = self.parts()["stays"]
+        self.assertEqual([row[key] for key in ("version", "device", "sources", "date", "other_processors")], ["1", "d", "0123456789ab", "2026-01-08", "0.7"])
+        (self.folder / "sources.json").write_text(json.dumps(keys | {self.rows[0]["folder"]: "ba9876543210"}))
+        self.assertEqual(self.parts()["stays"]["sources"], "")  # of several
 
     def test_a_run_that_is_missing_or_has_failed_is_said(self):
         self.add("whole", lambda count: grey(8, 6, 1.0), lambda count: grey(16, 12, 1.0))

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: MIT
 """What rebuild.py keeps of a table that its study's CSV is not enough for."""
 
+import contextlib
 import csv
+import io
+import os
 import pathlib
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -11,7 +16,12 @@ from unittest import mock
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "experiments/plotting"))
 
+import maker  # noqa: E402
+import noted  # noqa: E402
 import rebuild  # noqa: E402
+import sources  # noqa: E402
+import result_steps as steps  # noqa: E402
+import studies  # noqa: E402
 from views import PageError  # noqa: E402
 
 RUNS = "status,version,device,cpu,threads,seed,date\ndone,2,a,c,4,7,2026-11-27T10:00:00Z\nfailed,,,,,,\n"
@@ -71,6 +81,14 @@ class Missing(unittest.TestCase):
         (self.root / "results/refined/runs.csv").write_text("scene,driver.dense.refine,as_published\npool,1,true\nring,1,true\nring,3,true\n")
         self.assertEqual(rebuild.missing_parts("refined"), [["--only", "scene=pool", "--only", "driver.dense.refine=3", "--only", "as_published=true"]])
 
+    def test_is_each_run_without_a_row_of_the_trees_sources_where_that_is_asked(self):
+        (self.root / "results/refined/runs.csv").write_text("scene,driver.dense.refine,as_published,sources\npool,1,true,new\npool,3,true,old\nring,1,true,\nring,3,true,new\n")
+        present = mock.Mock(has=lambda key, technique, scene: key == "new" and scene in ("pool", "ring"))
+        self.assertEqual(rebuild.missing_parts("refined"), [])
+        self.assertEqual([part[1::2][:2] for part in rebuild.missing_parts("refined", present)], [["scene=pool", "driver.dense.refine=3"], ["scene=ring", "driver.dense.refine=1"]])
+        # None of them is: all runs are made.
+        self.assertEqual(rebuild.missing_parts("refined", mock.Mock(has=lambda *_: False)), [[]])
+
     def test_is_nothing_of_a_study_that_is_whole(self):
         rows = "".join(f"{scene},{refine},true\n" for scene in ("pool", "ring") for refine in (1, 3))
         (self.root / "results/refined/runs.csv").write_text("scene,driver.dense.refine,as_published\n" + rows)
@@ -89,6 +107,132 @@ class Missing(unittest.TestCase):
         self.assertIn("make it whole", str(raised.exception))
         file.write_text("scene,status,as_published\npool,done,false\n")
         self.assertEqual(len(rebuild.missing_parts("equal_error")), 1)
+
+
+KAUSTIK = """#!/usr/bin/env python3
+import json, pathlib, sys
+out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+rows = ["folder,hash,repeat,status,message,scene,frame_ms.max,frame_ms.median,device,version,date"]
+for scene in ("pool", "ring"):
+    (out / scene).mkdir(parents=True, exist_ok=True)
+    if not (out / scene / "report.json").is_file():
+        (out / scene / "report.json").write_text(json.dumps({"technique": "planar", "scene": {"name": scene}, "parameters": {"trace": "plane", "trace.epsilon": "1"}}))
+    rows.append(f"{scene},{scene},1,done,,{scene},9,8,d,1,2026-12-01")
+(out / "runs.csv").write_text("\\n".join(rows) + "\\n")
+"""
+
+
+class Whole(unittest.TestCase):
+    """A study, from its runs to rows that say of which sources they are, by a program that only pretends."""
+
+    def setUp(self):
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for name, text in {"build/kaustik": KAUSTIK, "experiments/refined.toml": '[base]\ntechnique = "planar"\n[permute]\nscene = ["pool", "ring"]\n', "results/x": "",
+                           "techniques/trace/plane.cpp": "plane();", "experiments/scenes/pool.toml": "name = 'pool'"}.items():
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / name).write_text(text)
+        (self.root / "build/kaustik").chmod(0o755)
+        os.utime(self.root / "build/kaustik")  # newer than all sources
+        call = rebuild.call
+        self.enterContext(mock.patch.object(rebuild, "ROOT", self.root))
+        self.enterContext(mock.patch.object(rebuild, "Tree", lambda: sources.Tree(self.root)))
+        self.enterContext(mock.patch.object(rebuild, "call", lambda *command: None if command[-1] == rebuild.PLOTTING / "pages.py" else call(*command)))
+        self.enterContext(contextlib.redirect_stdout(io.StringIO()))
+
+    def rebuild(self, anew: bool = False) -> dict[str, str]:
+        self.assertEqual(rebuild.rebuild(self.root / "build/kaustik", self.root / "out", None, anew, [], ["refined"], []), [])
+        return {row["scene"]: row["sources"] for row in maker.rows_in(self.root / "results/refined/runs.csv")}
+
+    def judged(self) -> list[int]:
+        present = sources.Present(sources.Tree(self.root), sources.recipes_of(self.root / "results" / sources.RECIPES))
+        rows = maker.rows_in(self.root / "results/refined/runs.csv")
+        return list(noted.judged({"base": {"technique": "planar"}}, rows, present).values())
+
+    def test_has_rows_of_the_tree_that_a_clone_knows_as_such_until_sources_change(self):
+        first = self.rebuild()
+        self.assertEqual({len(key) for key in first.values()}, {12})
+        shutil.rmtree(self.root / "out")
+        self.assertEqual(self.judged(), [2, 0, 0])
+        (self.root / "experiments/scenes/pool.toml").write_text("name = 'pool' ")
+        self.assertEqual(self.judged(), [1, 1, 0])
+        (self.root / "techniques/trace/plane.cpp").write_text("planes();")
+        self.assertEqual(self.judged(), [0, 2, 0])
+        os.utime(self.root / "build/kaustik")
+        self.rebuild(anew=True)
+        self.assertEqual(self.judged(), [2, 0, 0])
+
+    def test_runs_that_were_there_before_have_no_key(self):
+        out = self.root / "out/refined"
+        subprocess.run([self.root / "build/kaustik", "--out", out], check=True)
+        os.utime(out / "ring/report.json", (1000, 1000))
+        shutil.rmtree(out / "pool")
+        self.assertEqual({scene: bool(key) for scene, key in self.rebuild().items()}, {"pool": True, "ring": False})
+        self.assertEqual(self.judged(), [1, 0, 1])
+
+    def test_runs_of_a_program_of_another_tree_have_no_key(self):
+        with mock.patch.object(sources.Tree, "has_built", lambda *_: False):
+            self.assertEqual(set(self.rebuild().values()), {""})
+        self.assertFalse((self.root / "results" / sources.RECIPES).exists())
+
+
+class Judged(unittest.TestCase):
+    """What --stale says of rows."""
+
+    def test_are_of_the_tree_of_others_or_not_known_by_what_the_row_or_else_the_study_says(self):
+        asked = []
+
+        def has(key, technique, scene):
+            asked.append((key, technique, scene))
+            return key == "new"
+
+        rows = [{"scene": "pool", "sources": "new"}, {"technique": "planar", "sources": "old"}, {"sources": ""}, {}]
+        self.assertEqual(list(noted.judged({"base": {"technique": "march", "scene": "ring"}}, rows, mock.Mock(has=has)).values()), [1, 1, 2])
+        self.assertEqual(asked, [("new", "march", "pool"), ("old", "planar", "ring")])
+
+
+class Steps(unittest.TestCase):
+    """What is in results/ of no study."""
+
+    def test_name_no_study_and_programs_that_take_their_arguments(self):
+        self.assertEqual(set(rebuild.STEPS) & {*rebuild.STUDIES, *rebuild.DEVICE}, set())
+        for name, step in rebuild.STEPS.items():
+            self.assertEqual(steps.wrong_with(step), [], name)
+            self.assertTrue(step.commands or step.elsewhere, name)
+
+    def test_are_found_wrong_where_a_program_or_an_option_is_not_there(self):
+        self.assertEqual(steps.wrong_with(steps.Step("", (("experiments/nowhere.py",),))), ["there is no 'experiments/nowhere.py'"])
+        wrong = steps.wrong_with(steps.Step("", (("experiments/census.py", "--kaustik", steps.KAUSTIK, "--no-such", "1"),), takes_anew=True))
+        self.assertEqual(wrong, ["'experiments/census.py' has no option --no-such"])
+        self.assertEqual(steps.wrong_with(steps.Step("", (("experiments/costs.sh", "--scenes", "x"),), takes_anew=True)), ["'experiments/costs.sh' has no option --anew"])
+
+    def test_all_that_makes_files_of_no_study_is_one(self):
+        called = {pathlib.Path(program).name for step in rebuild.STEPS.values() for program, *_ in step.commands}
+        # Of two builds, or of devices that are elsewhere.
+        apart = {name for name in studies.DERIVED.values() if name == "two_builds.py" or name.endswith(".toml")}
+        self.assertEqual({pathlib.Path(name).name for name in {*studies.DERIVED.values()} - apart} - called, set())
+
+    def test_are_called_with_our_programs_in_reach_and_what_they_left_is_copied(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(steps, "ROOT", pathlib.Path(folder)):
+            root = pathlib.Path(folder)
+            for made in ("experiments", "results"):
+                (root / made).mkdir()
+            (root / "experiments/program.py").write_text("import os, pathlib, sys\npathlib.Path('left.csv').write_text(' '.join(sys.argv[1:]) + os.environ['PATH'].split(':')[0])\n")
+            step = steps.Step("kept.csv", (("experiments/program.py", steps.KAUSTIK),), copies=("left.csv", "kept.csv"), takes_anew=True)
+            self.assertEqual(steps.make(step, pathlib.Path("/b/bin/kaustik"), anew=False), "")
+            self.assertEqual((root / "results/kept.csv").read_text(), "/b/bin/kaustik/b/bin")
+            self.assertEqual(steps.make(step, pathlib.Path("/b/bin/kaustik"), anew=True), "")
+            self.assertEqual((root / "results/kept.csv").read_text(), "/b/bin/kaustik --anew/b/bin")
+            (root / "experiments/program.py").write_text("import sys\nsys.exit('no luck')\n")
+            self.assertIn("ended with 1: no luck", steps.make(step, pathlib.Path("/b/bin/kaustik"), anew=False))
+
+    def test_say_what_they_need_that_is_not_here(self):
+        with mock.patch("shutil.which", lambda _: None):
+            self.assertIn("POV-Ray", steps.missing_for(rebuild.STEPS["judge"], True))
+        with mock.patch("shutil.which", lambda name: name):
+            self.assertEqual(steps.missing_for(rebuild.STEPS["judge"], False), "")
+            self.assertIn("name it", steps.missing_for(rebuild.STEPS["second_driver"], False))
+            self.assertEqual(steps.missing_for(rebuild.STEPS["second_driver"], True), "")
+        self.assertIn("GPU", steps.missing_for(rebuild.STEPS["gpu"], True))
 
 
 ALL = """folder,hash,repeat,status,message,scene,trace,frame_ms.max,frame_ms.mean,frame_ms.median,frame_ms.stdev,photons.emitted,device,version

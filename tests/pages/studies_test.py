@@ -45,6 +45,15 @@ class Studies(unittest.TestCase):
             count, missing = study_plan.missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows := studies.runs(ROOT / "results" / file))
             self.assertEqual((count, missing), (len(rows), []), study)
 
+    def test_say_of_which_days_the_rows_are_whose_sources_are_known(self):
+        def rows(**days: int):
+            return tuple({"sources": f"{at // 2}{day}", "date": f"2026-01-{day.removeprefix('of')}T10:00:00Z"} for day, count in days.items() for at in range(count))
+
+        self.assertEqual(studies.sources_of(({"scene": "pool"}, {"sources": "", "date": ""})), "sources of no row are known")
+        self.assertEqual(studies.sources_of(rows(of02=3)), "sources of all rows are known: 3 of 2026-01-02 (2 keys)")
+        self.assertEqual(studies.sources_of((*rows(of01=1, of04=2, of02=3, of09=1, of05=4), {"sources": ""})),
+                         "sources of 11 rows are known: 1 of 2026-01-09 (1 key), 4 of 2026-01-05 (2 keys), 2 of 2026-01-04 (1 key), 4 of 2 other days; of 1 they are not")
+
     def test_say_which_runs_no_row_is_of(self):
         count, missing = study_plan.missing_of(tomllib.loads(STUDY), ROWS)
         self.assertEqual(count, 8)
