@@ -6,7 +6,7 @@ import pathlib
 import re
 
 # By folder below results/: what its drawings are made of, and by which command.
-DRAWN = {"all_techniques": (("runs.csv", "best_mixtures.csv", "light_tracer.csv"), "experiments/plotting/speed_error.py"),
+DRAWN = {"all_techniques": (("runs.csv", "best_mixtures.csv", "light_tracer.csv", "in_turn.csv"), "experiments/plotting/speed_error.py"),
          "error_parts": (("parts.csv",), "experiments/rebuild_results.sh error_parts"), "flicker": (("flicker.csv",), "experiments/flicker.py")}
 
 

@@ -23,6 +23,8 @@ from typing import Iterable, NamedTuple
 LIGHT_TRACER, PHOTON_MAPPING = "light tracer", "progressive photon mapping"
 DEFAULT, MIXTURE = "exact_rays", "best mixture"
 MIDDLE = {"256x256", "1024"}  # photons along each side of the grid, or the finest cells
+# What says how many photons these take; of the others it is emit.photons. The other one is in their rows too, and has no effect.
+VARIED = {"adaptive_caustic_map": "refine.finest", "vertex_caustics": ""}
 DISTURBED = 0.2  # frames that differ by more had the machine not for themselves
 
 
@@ -45,6 +47,17 @@ def net(row: dict) -> float | None:
 
 def name_of(row: dict) -> str:
     return row["technique"] + (", as published" if row.get("as_published") == "true" else "")
+
+
+def varied(row: dict) -> tuple[str, str]:
+    """The setting that says how many photons a run has, and what it is."""
+    key = "refine.finest" if row.get("driver") == "adaptive" else VARIED.get(row["technique"], "emit.photons")
+    return key, row.get(key) or ""
+
+
+def side_of(row: dict) -> float:
+    """Photons along a side of a run's grid, or the finest cells; 0 where meshes say how many."""
+    return float(varied(row)[1].split("x")[0] or 0)
 
 
 def is_disturbed(row: dict) -> bool:
@@ -158,6 +171,7 @@ class Point(NamedTuple):
     error: float
     sd: float = 0.0  # of the time's logarithm
     disturbed: bool = False
+    photons: float = 0.0  # a side of the grid's (side_of); of what a user would pick instead all of them
 
 
 def points_of(runs: list[dict], baselines: list[dict], spreads: Spreads) -> dict[str, dict[str, list[Point]]]:
@@ -166,14 +180,15 @@ def points_of(runs: list[dict], baselines: list[dict], spreads: Spreads) -> dict
     for row in runs:
         error, ms = net(row), number(row, "ms")
         if row["status"] == "done" and error and error > 0.0 and ms:
-            of[row["scene"]][name_of(row)].append(Point(ms, error, spreads.of_run(row), is_disturbed(row)))
+            of[row["scene"]][name_of(row)].append(Point(ms, error, spreads.of_run(row), is_disturbed(row), side_of(row)))
     for scene, tracer in light_tracers(baselines).items():
         if scene in of:
-            of[scene][LIGHT_TRACER] = [Point(ms, tracer.error(ms), spreads.of_tracer) for ms in (0.1, 1, 10, 100, 1000, 10000)]
+            of[scene][LIGHT_TRACER] = [Point(ms, tracer.error(ms), spreads.of_tracer, photons=tracer.photons(tracer.error(ms))) for ms in (0.1, 1, 10, 100, 1000, 10000)]
     for scene, rows in by_scene(baselines, "sppm").items():
-        points = [(1e3 * float(row["seconds"]), error) for row in rows if (error := net(row)) and error > 0.0]
+        points = [(1e3 * float(row["seconds"]), error, float(row["photons"])) for row in rows if (error := net(row)) and error > 0.0]
         if scene in of and points:
-            of[scene][PHOTON_MAPPING] = [Point(*point, spreads.of_mapping(points)) for point in points]
+            sd = spreads.of_mapping([point[:2] for point in points])
+            of[scene][PHOTON_MAPPING] = [Point(ms, error, sd, photons=photons) for ms, error, photons in points]
     return {scene: {name: sorted(points) for name, points in by.items()} for scene, by in of.items()}
 
 
@@ -205,6 +220,15 @@ class Found(NamedTuple):
     high: float | None
     at_most: bool  # the curve ends before: with fewer photons (or in more time) it would be less
     disturbed: bool
+    photons: float  # as a point has them; 0 where none are known
+
+
+def photons_between(points: list[Point], ats: list[float], at: float) -> float:
+    """Of one point or of two, between which they are interpolated in logarithms."""
+    if len(points) == 1 or min(point.photons for point in points) <= 0.0:
+        return points[0].photons
+    (few, many), part = (point.photons for point in points), math.log(at / ats[0]) / math.log(ats[1] / ats[0])
+    return few * (many / few) ** part
 
 
 def found_on(curve: list[Point], at: float, by_error: bool) -> Found | None:
@@ -213,12 +237,15 @@ def found_on(curve: list[Point], at: float, by_error: bool) -> Found | None:
         shifted = [(point.ms * math.exp(shift * point.sd), point.error) for point in curve]
         return [pair[::-1] for pair in shifted] if by_error else shifted
 
-    order = sorted(range(len(curve)), key=lambda place: pairs(0.0)[place])
-    of = candidates(sorted(pairs(0.0)), at)
+    own = pairs(0.0)
+    order = sorted(range(len(curve)), key=lambda place: own[place])
+    of = candidates(sorted(own), at)
     if not of:
         return None
     value, places = min(of)
-    return Found(value, least(pairs(-1.0), at), least(pairs(1.0), at), at > max(pair[0] for pair in pairs(0.0)), any(curve[order[place]].disturbed for place in places))
+    points = [curve[order[place]] for place in places]
+    return Found(value, least(pairs(-1.0), at), least(pairs(1.0), at), at > max(pair[0] for pair in own), any(point.disturbed for point in points),
+                 photons_between(points, [own[order[place]][0] for place in places], at))
 
 
 def half_widths(found: Found) -> tuple[float, float] | None:
@@ -228,23 +255,23 @@ def half_widths(found: Found) -> tuple[float, float] | None:
     return math.log(found.value / found.low), math.log(found.high / found.value)
 
 
-RANKED = ["first", "value", "low", "high", "at_most", "disturbed", "second", "times", "times low", "times high"]
+RANKED = ["first", "value", "low", "high", "at_most", "disturbed", "photons", "second", "times", "times low", "times high", "second at_most", "second photons"]
 
 
 def first_two(values: dict[str, Found | None]) -> list:
-    """RANKED: the name with the least value, the value, the second's name, and the ratio of the two."""
+    """RANKED: the name with the least value, the value and its photons, the second's name, the ratio of the two and the second's photons."""
     there = sorted((found.value, name) for name, found in values.items() if found is not None)
     if not there:
-        return ["nothing", *[None] * 3, "", "", "", *[None] * 3]
+        return ["nothing", *[None] * 3, "", "", None, "", *[None] * 3, "", None]
     (least_value, name), rest = there[0], there[1:]
     first = values[name]
-    row = [name, *first[:3], str(first.at_most).lower(), str(first.disturbed).lower()]
+    row = [name, *first[:3], str(first.at_most).lower(), str(first.disturbed).lower(), first.photons or None]
     if not rest:
-        return [*row, "", *[None] * 3]
+        return [*row, "", *[None] * 3, "", None]
     second, times = values[rest[0][1]], rest[0][0] / least_value
     own, other = half_widths(first), half_widths(second)
     ends = [times * math.exp(-math.hypot(other[0], own[1])), times * math.exp(math.hypot(other[1], own[0]))] if own and other else [None, None]
-    return [*row, rest[0][1], times, *ends]
+    return [*row, rest[0][1], times, *ends, str(second.at_most).lower(), second.photons or None]
 
 
 def ranked(of_scenes: dict[str, dict[str, list[Point]]], ats: list[float], by_error: bool) -> list[list]:

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tables of speed_and_error.md from what speed_error.py has written, with intervals of one standard deviation behind the figures.
+"""Tables of speed_and_error.md from what speed_error.py has written, with intervals of one standard deviation after the figures.
 
-    speed_error_tables.py answers|to_error|in_time|one_second|photon_mapping CSV
+    speed_error_tables.py answers|to_error|in_time|one_second|photon_mapping|counts|goals CSV
 
-`≤`, `≥`: the curve ends before, and the figure is a bound. Behind a winner stands the second with `×`, how far it is behind, or `≈`, where that is no lead: its interval has 1 in it, or it is less than a
-twentieth, since two techniques' errors are of one set of random numbers each. A star: of a run whose frames differed much.
+`≤`, `≥`: the curve ends before, and the figure is a bound. `249²` are the photons of a technique's grid, `1.7M` those of the light tracer. Below a winner stands the second with `×`, how far it is behind,
+or `≈`, where that is no lead: its interval has 1 in it, or it is less than a twentieth, since two techniques' errors are of one set of random numbers each. Where the light tracer is first the second is
+the first technique. A star: of a run whose frames differed much.
 """
 
 import argparse
@@ -14,7 +15,7 @@ import sys
 
 from quantities import formatted
 from runs import head, line
-from speed_curves import rows_of
+from speed_curves import DEFAULT, LIGHT_TRACER, PHOTON_MAPPING, VARIED, rows_of
 
 LEAST_MS = 0.1  # where the light tracer's curve begins
 LEAD = 1.05
@@ -45,16 +46,32 @@ def of_answers(rows: list[dict]) -> str:
     return "\n".join(lines)
 
 
+def photons_of(name: str, photons: str) -> str:
+    """` 249²`; of an adaptive map its finest cells; of what a user would pick instead all of them, ` 1.7M`; nothing where meshes say how many."""
+    if not photons:
+        return ""
+    value, base = float(photons), name.removesuffix(", as published")
+    if base in (LIGHT_TRACER, PHOTON_MAPPING):
+        scale, unit = next(((scale, unit) for scale, unit in ((1e6, "M"), (1e3, "k")) if value >= scale), (1.0, ""))
+        return f" {digits(repr(value / scale))}{unit}"
+    return (" cells of " if VARIED.get(base) else " ") + f"{value:.0f}²"
+
+
 def winner(row: dict) -> str:
     if not row["value"]:
         return "–"
-    is_first = row["first"] == "light tracer" and row["at_most"] == "true" and float(row["value"]) <= LEAST_MS
-    figure = f"≤ {LEAST_MS}" if is_first else ("≤ " if row["at_most"] == "true" else "") + with_interval(row, "value", "low", "high")
-    lead = ""
+    tracer_is_first = row["first"] == LIGHT_TRACER
+    figure = ("≤ " if row["at_most"] == "true" else "") + with_interval(row, "value", "low", "high")
+    photons = photons_of(row["first"], row["photons"])
+    if tracer_is_first and row["at_most"] == "true" and float(row["value"]) <= LEAST_MS:  # its curve begins there, and not its photons
+        figure, photons = f"≤ {LEAST_MS}", ""
+    second = "no technique" if tracer_is_first else ""
     if row["times"]:
         is_even = float(row["times"]) < LEAD or row["times low"] and float(row["times low"]) <= 1.0
-        lead = f"; `{row['second']}` " + ("≈" if is_even else f"×{digits(row['times'])}")
-    return f"`{row['first']}`{star(row['disturbed'])} {figure}{lead}"
+        own = photons_of(row["second"], row["second photons"]) if tracer_is_first else ""
+        bound = " ≤" if own and row["second at_most"] == "true" else ""
+        second = f"`{row['second']}`{bound}{own} " + ("≈" if is_even else f"×{digits(row['times'])}")
+    return f"`{row['first']}`{star(row['disturbed'])}{photons}: {figure}" + (f"<br>{second}" if second else "")
 
 
 def pivot(rows: list[dict], across: str, cell) -> str:
@@ -73,7 +90,30 @@ def of_one_second(rows: list[dict]) -> str:
     return "\n".join(lines)
 
 
+def of_counts(rows: list[dict]) -> str:
+    """The default's runs, of equal_error.csv: the first table that somebody who takes it looks at."""
+    own = [row for row in rows if row["technique"] == DEFAULT and row["as_published"] == "false"]
+    counts = sorted({row["emit.photons"] for row in own}, key=lambda size: int(size.split("x")[0]))
+    cells = {(row["scene"], row["emit.photons"]): [digits(row["ms"]), digits(row["relMSE, net"]), ("≥ " if row["at_least"] == "true" else "") + digits(row["factor"])] for row in own}
+    lines = [head(["scene", *(f"{what}, {size.split('x')[0]}²" for what in ("ms", "relMSE, net", "times as fast") for size in counts)])]
+    for scene in sorted({row["scene"] for row in own}):
+        lines.append(line([f"`{scene}`", *(cells.get((scene, size), ["–"] * 3)[place] for place in range(3) for size in counts)]))
+    return "\n".join(lines)
+
+
+def of_goals(rows: list[dict]) -> str:
+    lines = [head(["times of", "scenes", "without", "3 times as fast or more", "slower", "least", "median", "largest"])]
+    for row in rows:
+        median = digits(row["median"])
+        if row["missing"]:
+            median += " (with " + ("it" if "," not in row["missing"] else "them") + f" {digits(row['median least']) if row['median least'] else '–'} to {digits(row['median most']) if row['median most'] else '–'})"
+        lines.append(line([row["by"], f"{row['scenes']} of {row['of']}", ", ".join(f"`{scene}`" for scene in row["missing"].split(", ")) if row["missing"] else "–", row["above 3"], row["slower"],
+                           digits(row["least"]), median, digits(row["largest"])]))
+    return "\n".join(lines)
+
+
 TABLES = {"answers": of_answers, "to_error": lambda rows: pivot(rows, "relMSE", winner), "in_time": lambda rows: pivot(rows, "ms", winner), "one_second": of_one_second,
+          "counts": of_counts, "goals": of_goals,
           "photon_mapping": lambda rows: pivot(rows, "emit.photons", lambda row: f"{row['bound']} {with_interval(row, 'factor', 'low', 'high')}".strip())}
 
 

@@ -57,7 +57,7 @@ class Drawings(unittest.TestCase):
         done = subprocess.run([sys.executable, "-B", PLOTTING / "speed_error.py", "--tables", "--results", self.results], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         made = sorted(file.name for file in self.results.glob("*.csv"))
-        self.assertLessEqual({"answers.csv", "summary.csv", "equal_error.csv", "costs.csv", "published.csv", "to_error.csv", "in_time.csv"}, set(made))
+        self.assertLessEqual({"answers.csv", "summary.csv", "goals.csv", "equal_error.csv", "costs.csv", "published.csv", "to_error.csv", "in_time.csv"}, set(made))
         self.assertEqual(list(self.results.glob("*.svg")), [])
         for name in made:
             self.assertEqual((self.results / name).read_text(), (of_tree / name).read_text(), name)

@@ -2,6 +2,7 @@
 """Speed against error compared with a light tracer, on runs whose factors are known: its relMSE is 1000 over its photons, each takes 1 us."""
 
 import csv
+import json
 import math
 import pathlib
 import subprocess
@@ -114,7 +115,30 @@ class Intervals(unittest.TestCase):
             self.assertAlmostEqual(float(row[end]) / 200.0, math.exp(sign * sd), places=2)
         both = math.hypot(sd, math.sqrt(0.01 / 2.0))
         self.assertAlmostEqual(float(row["times low"]) / float(row["times"]), math.exp(-both), places=3)
-        self.assertIn("| `best mixture` 200 (99 to 403); `light tracer` ≈ |", self.printed("to_error"))
+        self.assertIn("| `best mixture` 256²: 200 (99 to 403)<br>`light tracer` ≈ |", self.printed("to_error"))
+
+    def test_say_the_photons_between_runs(self):
+        row = self.row("to_error.csv", scene="pond", relMSE="0.03")  # the light tracer has it with 66,667 photons
+        self.assertEqual([row[key] for key in ("first", "photons", "second", "second at_most")], ["light tracer", "6.667e+04", "exact_rays", "false"])
+        self.assertIn("| `light tracer` 67k: 67 (62 to 72)<br>`exact_rays` 148² ≈ |", self.printed("to_error"))  # 128² and a fifth of the way to 256²
+        self.assertIn("| `light tracer` 20k: 20 (19 to 21)<br>`exact_rays` ≤ 128² ×5 |", self.printed("to_error"))  # to 0.1
+        done = subprocess.run([sys.executable, "-B", "-c", "import sys; sys.path.insert(0, sys.argv[1]); from speed_curves import Point, found_on;"
+                               "curve = [Point(100.0, 0.04, photons=128.0), Point(400.0, 0.01, photons=512.0)];"
+                               "print(*(round(found_on(curve, at, by_error=True).photons) for at in (0.02, 0.01, 0.1)))", PLOTTING], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.split(), ["256", "512", "128"])
+
+    def test_of_an_adaptive_map_are_its_finest_cells_and_of_vertices_nothing(self):
+        file = self.folder / "named.csv"
+        head = "scene,relMSE,first,value,low,high,at_most,disturbed,photons,second,times,times low,times high,second at_most,second photons\n"
+        file.write_text(head + "pond,0.1,adaptive_caustic_map,10,10,10,false,false,1024,,,,,,\npond,0.3,vertex_caustics,10,10,10,true,false,,,,,,,\n"
+                        "pond,1,light tracer,0.1,0.1,0.1,true,false,146,,,,,,\n")
+        self.assertEqual(self.printed("to_error", file).splitlines()[2],
+                         "| `pond` | `adaptive_caustic_map` cells of 1024²: 10 | `vertex_caustics`: ≤ 10 | `light tracer`: ≤ 0.1<br>no technique |")
+
+    def test_by_the_defaults_photons_are_its_rows(self):
+        self.assertEqual(self.printed("counts", self.folder / "equal_error.csv").splitlines(),
+                         ["| scene | ms, 128² | ms, 256² | relMSE, net, 128² | relMSE, net, 256² | times as fast, 128² | times as fast, 256² |", "| --- | --- | --- | --- | --- | --- | --- |",
+                          "| `cave` | 100 | – | 0.002 | – | 100 | – |", "| `pond` | 100 | 400 | 0.04 | 0.01 | 0.5 | 0.5 |"])
 
     def test_within_a_time_beyond_the_last_run_are_bounds(self):
         row = self.row("in_time.csv", scene="cave", ms="2000")
@@ -145,9 +169,9 @@ class Intervals(unittest.TestCase):
 
     def test_of_disturbed_runs_are_marked(self):
         file = self.folder / "marked.csv"
-        file.write_text("scene,relMSE,first,value,low,high,at_most,disturbed,second,times,times low,times high\n"
-                        "pond,0.1,planar,10,9,11,true,true,light tracer,3,2,4\ntree,0.1,nothing,,,,,,,,,\n")
-        self.assertEqual(self.printed("to_error", file).splitlines()[2:], ["| `pond` | `planar`\\* ≤ 10 (9 to 11); `light tracer` ×3 |", "| `tree` | – |"])
+        file.write_text("scene,relMSE,first,value,low,high,at_most,disturbed,photons,second,times,times low,times high,second at_most,second photons\n"
+                        "pond,0.1,planar,10,9,11,true,true,128,light tracer,3,2,4,false,1000\ntree,0.1,nothing,,,,,,,,,,,,\n")
+        self.assertEqual(self.printed("to_error", file).splitlines()[2:], ["| `pond` | `planar`\\* 128²: ≤ 10 (9 to 11)<br>`light tracer` ×3 |", "| `tree` | – |"])
 
     def test_have_a_circle_around_disturbed_runs_where_they_are_drawn(self):
         circled = [scene for scene in ("pond", "cave") if "#cc0000" in (self.folder / f"{scene}.svg").read_text()]
@@ -162,6 +186,33 @@ class Intervals(unittest.TestCase):
         self.assertEqual((row["scenes"], row["standard deviation"]), ("0", "0"))
         subprocess.run([sys.executable, "-B", PROGRAM, "--tables", "--results", self.folder, "--in-turn", self.folder / "turn.csv"], check=True)
         self.assertEqual((self.folder / "uncertainty.csv").read_text(), before)
+
+
+class Goals(unittest.TestCase):
+    """By thirteen scenes that were named beforehand."""
+
+    def goals(self, study, turn):
+        done = subprocess.run([sys.executable, "-B", "-c", "import csv, json, sys; sys.path.insert(0, sys.argv[1]); from speed_error import *; study, turn = json.loads(sys.argv[2]);"
+                               "rows = [{'scene': scene, 'technique': DEFAULT, 'status': 'done', 'factor': str(factor)} for scene, factor in turn.items()];"
+                               "csv.writer(sys.stdout).writerows([GOALS, *goals([{'scene': scene, 'factor': factor} for scene, factor in study.items()], rows)]);"
+                               "print(json.dumps(GOAL_SCENES), file=sys.stderr)", PLOTTING, json.dumps([study, turn])], capture_output=True, text=True, check=True)
+        return list(csv.DictReader(done.stdout.splitlines())), json.loads(done.stderr)
+
+    def test_of_other_scenes_count_nothing_and_scenes_without_a_row_are_named(self):
+        _, scenes = self.goals({}, {})
+        self.assertEqual((len(scenes), len(set(scenes)), "room_of_water" in scenes, {"blocker", "glass-dragon", "god-rays", "tree"} & set(scenes)), (13, 13, True, set()))
+        factors = {scene: float(place) for place, scene in enumerate(scenes, 1)}  # 1 to 13: the room, the last, has 13
+        study, turn = self.goals({**{scene: factor for scene, factor in factors.items() if scene != "room_of_water"}, "blocker": 100.0}, factors | {"glass-dragon": 100.0})[0]
+        self.assertEqual([study[key] for key in ("by", "of", "scenes", "missing", "above 3", "slower", "least", "median", "largest", "median least", "median most")],
+                         ["study", "13", "12", "room_of_water", "10", "1", "1.0", "6.5", "12.0", "6.0", "7.0"])
+        self.assertEqual([turn[key] for key in ("by", "scenes", "missing", "above 3", "median", "median least", "median most")], ["in turn", "13", "", "11", "7.0", "7.0", "7.0"])
+
+    def test_are_said_with_what_is_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "goals.csv"
+            file.write_text("by,of,scenes,missing,above 3,slower,least,median,largest,median least,median most\nstudy,13,12,room_of_water,10,1,0.9,6.5,12,6,7\nin turn,13,13,,11,1,1,7,13,7,7\n")
+            done = subprocess.run([sys.executable, "-B", PLOTTING / "speed_error_tables.py", "goals", file], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.splitlines()[2:], ["| study | 12 of 13 | `room_of_water` | 10 | 1 | 0.9 | 6.5 (with it 6 to 7) | 12 |", "| in turn | 13 of 13 | – | 11 | 1 | 1 | 7 | 13 |"])
 
 
 class SpeedError(unittest.TestCase):
