@@ -9,8 +9,8 @@
 
 #include "framework/audit/hit_audit.h"
 #include "framework/core/files.h"
-#include "framework/measure/image_errors.h"
 #include "framework/scene/files/scene_file.h"
+#include "tests/audit/caustic_errors.h"
 #include "tests/audit/modelled_reference.h"
 #include "tests/audit/shipped_scenes.h"
 #include "tests/gpu/fixture.h"
@@ -40,25 +40,6 @@ Bounds boundsOf(const std::string& scene) {
 // A batch of photons for a few each pixel.
 reference::Reference referenceOf(const reference::EmbreeScene& scene, const ModelledPaths& paths) {
     return modelledReference(scene, paths, kWidth, kHeight, 2'000'000);
-}
-
-measure::ImageErrors causticErrors(const Renderer& renderer,
-                                   const reference::Reference& reference) {
-    const FrameOutputs& outputs = renderer.outputs();
-    const Image image = imageOf(renderer.texture(outputs.caustic.irradiance), 0, 3);
-    Image receiver = imageOf(renderer.texture(outputs.eye.receiver), 0, 1);
-    Image area = imageOf(renderer.texture(outputs.eye.receiver), 1, 1);
-    for (std::size_t i = 0; i < area.values.size(); ++i) {
-        const bool sees = receiver.values[i] > 0.0f;
-        receiver.values[i] = sees ? 1.0f : 0.0f;
-        area.values[i] = sees ? area.values[i] : 0.0f;
-    }
-    const measure::ImagePair pair({.image = image,
-                                   .reference = reference.irradiance,
-                                   .mask = &receiver,
-                                   .standardError = &reference.irradianceError,
-                                   .area = &area});
-    return measure::measureErrors(pair);
 }
 
 class ShippedScene : public testing::TestWithParam<std::string> {};

@@ -40,16 +40,15 @@ inline std::vector<std::string> scenesWithViews() {
     return names;
 }
 
-// A frame of the screen's own technique (exact_rays_test.cpp has the default), rendered for a
-// purpose; `asOnGpu`: as the device would do that is none of the processor's. `registry` and
-// `scene` must outlive it.
+// A frame of a technique, the screen's own or another, rendered for a purpose; `asOnGpu`: as the
+// device would do that is none of the processor's. `registry` and `scene` must outlive it.
 inline std::unique_ptr<Renderer> rendered(const Registry& registry, const scene::Scene& scene,
                                           int width, int height, Purpose purpose,
-                                          const numerics::Settings& more = {},
-                                          bool asOnGpu = false) {
+                                          const numerics::Settings& more = {}, bool asOnGpu = false,
+                                          const std::string& technique = "screen_space_photons") {
     RenderSettings settings;
     settings.asOnGpu = asOnGpu;
-    settings.technique = registry.findTechnique("screen_space_photons");
+    settings.technique = registry.findTechnique(technique);
     settings.params = registry.makeParams(settings.technique);
     for (const auto& [name, value] : more)
         settings.params.set(name, value, "test");
