@@ -231,6 +231,11 @@ Subcommand addJudge(CLI::App& app) {
         .add_option("--encoding", options->encoding,
                     "What its values are: auto, linear, srgb or gamma2.2")
         ->capture_default_str();
+    command
+        .add_option("--primaries", options->primaries,
+                    "Which primaries its channels are of: auto, rec709, rec2020, p3, acescg or "
+                    "aces2065")
+        ->capture_default_str();
     command.add_option("--exposure", options->exposure,
                        "Its value for 1 W/m²/sr, where that is known; else it is found");
     command.add_option("--stderr", options->theirsErrorFile,

@@ -143,6 +143,7 @@ def judge(
     direct: str,
     glass: str,
     encoding: str,
+    primaries: str,
     exposure: Optional[float],
     standard_error: Any,
     photons: int,

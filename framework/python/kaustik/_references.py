@@ -137,6 +137,7 @@ def judge(
     direct: str = "auto",
     glass: str = "auto",
     encoding: str = "auto",
+    primaries: str = "auto",
     exposure: Optional[float] = None,
     standard_error: Optional[ImageLike] = None,
     size: Optional[Size] = None,
@@ -152,9 +153,10 @@ def judge(
 
     theirs is an array of linear light, H x W or H x W x C, or a file (.exr, .pfm). direct is
     "with", "without" or "auto" (found out), glass "seen", "hidden" or "auto", encoding "linear",
-    "srgb", "gamma2.2" or "auto". size is the reference's, that of theirs if not given; causes asks
-    for references of what may be wrong too (indices, lights, normals). References are cached.
-    ConfigError for what cannot be judged: another scene's picture, one for a display, no caustic.
+    "srgb", "gamma2.2" or "auto", primaries "rec709", "rec2020", "p3", "acescg", "aces2065" or
+    "auto". size is the reference's, that of theirs if not given; causes asks for references of what
+    may be wrong too (indices, lights, normals). References are cached. ConfigError for what cannot be judged: another scene's
+    picture, one for a display, no caustic.
     """
     found, text, residual, where = _kaustik.judge(
         scene,
@@ -164,6 +166,7 @@ def judge(
         direct,
         glass,
         encoding,
+        primaries,
         exposure,
         standard_error,
         photons,
