@@ -28,6 +28,18 @@ constexpr std::initializer_list<Role> kPlacedLight = {Role::direct, Role::lightC
 constexpr std::initializer_list<Role> kEverything = {Role::direct, Role::lightClass, Role::shiftX,
                                                      Role::shiftY, Role::cause,      Role::fill};
 
+// Mistakes that were made as a whole have noise that is in no error, and that other primaries,
+// which mix the channels, make less.
+std::vector<std::size_t> columnsToTellBy(const Comparison& comparison) {
+    std::vector<std::size_t> columns = columnsOf(comparison, kEverything);
+    std::erase_if(columns, [&](std::size_t column) {
+        const Column& of = comparison.columns[column];
+        return of.role == Role::cause &&
+               comparison.subject.causes[of.index].kind == CauseKind::whole;
+    });
+    return columns;
+}
+
 // Gives what `measure` does with the reference's light in other primaries. The picture stays as it
 // is, and with it its noise: in another space that has another size. Weights are not changed.
 template <class Measure>
@@ -61,7 +73,7 @@ double unexplainedByChannel(Comparison& comparison) {
         for (std::size_t i = 0; i < weight.values.size(); ++i)
             comparison.weight.values[i] = i % 3 == channel ? weight.values[i] : 0.0f;
         makeEquations(comparison);
-        left += fit(comparison, columnsOf(comparison, kEverything)).chiSquared;
+        left += fit(comparison, columnsToTellBy(comparison)).chiSquared;
         squares += comparison.equations.squares;
     }
     comparison.weight = weight;
