@@ -110,8 +110,10 @@ Subcommand addCensus(CLI::App& app, const Registry& registry) {
         ->capture_default_str();
     command.add_option("--time", options->time, "Time of the animation in seconds");
     command.add_flag("--json", options->json, "As JSON");
-    command.add_option("--out", options->out,
-                       "Folder for classes.csv, techniques.csv and census.json");
+    command.add_option(
+        "--out", options->out,
+        "Folder for classes.csv, techniques.csv and census.json; what is interrupted "
+        "goes on from the techniques that are done");
     command.add_option("--shard", options->shard,
                        "K/N: only the K-th of N parts of the techniques, as census-K-of-N.json");
     command

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "framework/core/files.h"
 #include "tests/cli/fixture.h"
@@ -187,6 +188,52 @@ TEST_F(Census, EndsAtASignalAndWritesNothing) {
     program.send(SIGINT);
     expectFailure(program.wait(), 1, {"Interrupted"});
     EXPECT_FALSE(std::filesystem::exists(folder / "out/census.json"));
+}
+
+TEST_F(Census, KeepsTheRowsThatAreDoneWhereItIsInterrupted) {
+    Conditions conditions;
+    conditions.folder = folder / ".";
+    conditions.environment = {{"KAUSTIK_CACHE", (folder / "cache").string()}};
+    // All techniques, of which the first is soon done.
+    Program program({"census", "wavy.toml", "--photons", "100000", "--size", "64x48",
+                     "--technique-photons", "32x32", "--out", "out"},
+                    conditions);
+    const auto hasKept = [&] {
+        std::error_code ignored;
+        for (const auto& entry :
+             std::filesystem::directory_iterator(folder / "out/census.unfinished", ignored)) {
+            if (entry.path().filename().string().starts_with("census-1-of-")) return true;
+        }
+        return false;
+    };
+    while (program.isRunning() && !hasKept())
+        std::this_thread::yield();
+    program.send(SIGINT);
+    expectFailure(program.wait(), 1, {"Interrupted after ", "rows of techniques", "goes on"});
+    EXPECT_TRUE(hasKept());
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/census.json"));
+}
+
+// A row that is there is taken as it is, if it is of the same census, and else made again.
+TEST_F(Census, GoesOnFromTheRowsThatAreThere) {
+    const auto formed = [&](const char* file) {
+        return json::parse(readFile(folder / file)).at("techniques")[0].at("forms_w").get<double>();
+    };
+    ASSERT_EQ(census({"--shard", "1/2", "--out", "parts"}).exitCode, 0);
+    const double watts = formed("parts/census-1-of-2.json");
+    const auto leave = [&](const std::string& key, const json& value) {
+        json part = json::parse(readFile(folder / "parts/census-1-of-2.json"));
+        part.at("techniques")[0].at("forms_w") = 0.5 * watts;
+        part[key] = value;
+        writeFileWhole(folder / "out/census.unfinished/census-1-of-2.json", part.dump());
+    };
+    leave("scene", "wavy");
+    ASSERT_EQ(census({"--out", "out"}).exitCode, 0);
+    EXPECT_DOUBLE_EQ(formed("out/census.json"), 0.5 * watts);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/census.unfinished"));
+    leave("settings", "emit.photons=32x32");
+    ASSERT_EQ(census({"--out", "out"}).exitCode, 0);
+    EXPECT_DOUBLE_EQ(formed("out/census.json"), watts);
 }
 
 TEST_F(Census, RefusesWhatMakesNoSenseInASentence) {
