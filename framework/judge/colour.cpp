@@ -13,10 +13,10 @@
 namespace kaustik::judge {
 namespace {
 
-// Another encoding than linear, and others than the primaries of Rec. 709, must leave less than
-// this share of what is unexplained.
+// Another encoding than linear must leave less than this share of what is unexplained.
 constexpr double kMaxLossOfEncoding = 0.6;
-constexpr double kMaxLossOfPrimaries = 0.6;
+// As must others than the primaries of Rec. 709, whose picture of little colour differs by less.
+constexpr double kMaxLossOfPrimaries = 0.8;
 // Primaries are told from others that leave more than this times as much: as many values are in a
 // picture, chance has no part in it, and what the fits do not know of the light has.
 constexpr double kEqualPrimaries = 1.15;
@@ -42,15 +42,14 @@ std::vector<std::size_t> columnsToTellBy(const Comparison& comparison) {
 
 // Gives what `measure` does with the reference's light in other primaries. The picture stays as it
 // is, and with it its noise: in another space that has another size. Weights are not changed.
+// Nothing is taken off for the noise of the reference: what its channels share, since photons are
+// of one colour, is as much in each space, and no error says how much that is.
 template <class Measure>
 double inSpace(Comparison& comparison, Primaries primaries, const Measure& measure) {
-    if (primaries == Primaries::rec709) return measure();
     const glm::dmat3 matrix = glm::inverse(toRec709(primaries));
     std::vector<Column> columns;
-    for (const Column& column : comparison.columns) {
-        columns.push_back({column.role, column.index, transformed(column.image, matrix),
-                           transformedError(column.error, matrix)});
-    }
+    for (const Column& column : comparison.columns)
+        columns.push_back({column.role, column.index, transformed(column.image, matrix), {}});
     std::swap(columns, comparison.columns);
     const double result = measure();
     std::swap(columns, comparison.columns);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "framework/core/error.h"
 #include "framework/judge/judge.h"
@@ -182,6 +183,26 @@ TEST(Primaries, AreTakenAsTheyAreAskedForWhereTheyCannotBeTold) {
     EXPECT_TRUE(asked.otherPrimaries.empty());
     EXPECT_TRUE(asked.findings.empty()) << toText(asked);
     EXPECT_NEAR(asked.exposure, 2.0, 0.02);
+}
+
+// Of one photon all channels are too bright, as in the reference of a real scene.
+TEST(Primaries, AreNotToldByNoiseThatChannelsShare) {
+    Subject subject = paintedSubject(
+        kOneColour, transformed(painted(kOneColour), glm::inverse(published().front().toRec709)));
+    std::mt19937 random(3);
+    std::normal_distribution<float> normal;
+    for (Light& light : subject.classes) {
+        for (std::size_t i = 0; i < light.radiance.values.size(); i += 3) {
+            const float factor = normal(random);
+            for (std::size_t c = i; c < i + 3; ++c) {
+                light.error.values[c] = 0.1f * std::abs(light.radiance.values[c]);
+                light.radiance.values[c] += factor * light.error.values[c];
+            }
+        }
+    }
+    const Verdict verdict = judge(subject, {});
+    EXPECT_EQ(verdict.primaries, Primaries::rec709) << toText(verdict);
+    EXPECT_EQ(verdict.otherPrimaries.size(), kAllPrimaries.size() - 1) << toText(verdict);
 }
 
 TEST(Primaries, AreNoWhiteBalanceOfAColouredPicture) {
