@@ -43,19 +43,17 @@ void shareShift(Comparison& comparison) {
         makeColumns(comparison, comparison.hasCauseColumns);
     }
     if (by == glm::dvec2(0.0)) return;
-    // A pixel counts where all do that it is interpolated from, in theirs and in the columns.
+    // A pixel counts where both do that it lies between.
     const Image counted = comparison.counted;
-    const int reachX = by.x != 0.0 ? kInterpolationReach : 0;
-    const int reachY = by.y != 0.0 ? kInterpolationReach : 0;
+    const int dx = by.x > 0.0 ? -1 : by.x < 0.0 ? 1 : 0;
+    const int dy = by.y > 0.0 ? -1 : by.y < 0.0 ? 1 : 0;
     for (int y = 0; y < counted.height; ++y) {
         for (int x = 0; x < counted.width; ++x) {
-            for (int row = y - reachY; row <= y + reachY; ++row) {
-                for (int column = x - reachX; column <= x + reachX; ++column) {
-                    if (counted.at(std::clamp(column, 0, counted.width - 1),
-                                   std::clamp(row, 0, counted.height - 1), 0) < 0.5f)
-                        comparison.counted.at(x, y, 0) = 0.0f;
-                }
-            }
+            const int column = std::clamp(x + dx, 0, counted.width - 1);
+            const int row = std::clamp(y + dy, 0, counted.height - 1);
+            if (counted.at(column, y, 0) < 0.5f || counted.at(x, row, 0) < 0.5f ||
+                counted.at(column, row, 0) < 0.5f)
+                comparison.counted.at(x, y, 0) = 0.0f;
         }
     }
 }
