@@ -150,6 +150,7 @@ class PlantedFault : public testing::Test {
     static void ofFlippedNormalsIsNamed();
     static void ofHalfAPixelIsNamed();
     static void ofAGammaIsNamed();
+    static void ofThePrimariesIsNamed();
 
     static inline test::TemporaryFolder* folder_ = nullptr;
     static inline scene::Scene* scene_ = nullptr;
@@ -241,6 +242,24 @@ void PlantedFault::ofAGammaIsNamed() {
     EXPECT_EQ(verdict.findings.size(), 1u) << toText(verdict);
 }
 
+// By what colour a table and a post have, no more than from Rec. 709.
+void PlantedFault::ofThePrimariesIsNamed() {
+    Image theirs = pictureOf(nothing);
+    // To Rec. 2020, by Rec. ITU-R BT.2087-0.
+    const glm::mat3 matrix = glm::transpose(
+        glm::mat3(0.6274f, 0.3293f, 0.0433f, 0.0691f, 0.9195f, 0.0114f, 0.0164f, 0.0880f, 0.8956f));
+    for (std::size_t i = 0; i < theirs.values.size(); i += 3) {
+        const glm::vec3 pixel =
+            matrix * glm::vec3(theirs.values[i], theirs.values[i + 1], theirs.values[i + 2]);
+        for (glm::length_t c = 0; c < 3; ++c)
+            theirs.values[i + static_cast<std::size_t>(c)] = pixel[c];
+    }
+    const Verdict verdict = judged(theirs);
+    EXPECT_EQ(verdict.primaries, judge::Primaries::rec2020) << toText(verdict);
+    EXPECT_NE(find(verdict, "primaries"), nullptr) << toText(verdict);
+    EXPECT_EQ(verdict.findings.size(), 1u) << toText(verdict);
+}
+
 // Each wrong law, as photons of another seed have it; they are planted on the whole picture.
 void PlantedFault::ofTheFresnelFactorIsNamed() {
     scene::Scene scene = *scene_;
@@ -318,6 +337,7 @@ TEST_F(PlantedFault, IsNamedWhateverItIs) {
     ofFlippedNormalsIsNamed();
     ofHalfAPixelIsNamed();
     ofAGammaIsNamed();
+    ofThePrimariesIsNamed();
     ofTheFresnelFactorIsNamed();
     ofTheLightsPlaceIsNamed();
     ofTheCameraIsRefused();
