@@ -27,6 +27,7 @@ judge::JudgeOptions optionsOf(const JudgeOptions& options) {
     if (options.withDirect) names.direct = "with";
     names.glass = options.glass;
     names.encoding = options.encoding;
+    names.primaries = options.primaries;
     names.exposure = options.exposure;
     return judge::optionsOf(names, [](const std::string& name) { return "--" + name; });
 }

@@ -169,8 +169,9 @@ struct JudgeOptions {
     std::string theirsErrorFile;  // "": estimated
     bool causticOnly = false;     // neither: it is found out
     bool withDirect = false;
-    std::string glass = "auto";     // or seen, hidden
-    std::string encoding = "auto";  // or linear, srgb, gamma2.2
+    std::string glass = "auto";      // or seen, hidden
+    std::string encoding = "auto";   // or linear, srgb, gamma2.2
+    std::string primaries = "auto";  // or rec709, rec2020, p3, acescg, aces2065
     std::optional<double> exposure;
     std::string size;  // of the reference; "": that of the picture
     std::string time;

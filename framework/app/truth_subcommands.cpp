@@ -110,8 +110,10 @@ Subcommand addCensus(CLI::App& app, const Registry& registry) {
         ->capture_default_str();
     command.add_option("--time", options->time, "Time of the animation in seconds");
     command.add_flag("--json", options->json, "As JSON");
-    command.add_option("--out", options->out,
-                       "Folder for classes.csv, techniques.csv and census.json");
+    command.add_option(
+        "--out", options->out,
+        "Folder for classes.csv, techniques.csv and census.json; what is interrupted "
+        "goes on from the techniques that are done");
     command.add_option("--shard", options->shard,
                        "K/N: only the K-th of N parts of the techniques, as census-K-of-N.json");
     command
@@ -230,6 +232,11 @@ Subcommand addJudge(CLI::App& app) {
     command
         .add_option("--encoding", options->encoding,
                     "What its values are: auto, linear, srgb or gamma2.2")
+        ->capture_default_str();
+    command
+        .add_option("--primaries", options->primaries,
+                    "Which primaries its channels are of: auto, rec709, rec2020, p3, acescg or "
+                    "aces2065")
         ->capture_default_str();
     command.add_option("--exposure", options->exposure,
                        "Its value for 1 W/m²/sr, where that is known; else it is found");

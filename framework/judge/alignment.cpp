@@ -9,6 +9,7 @@
 #include "framework/core/error.h"
 #include "framework/judge/fitting.h"
 #include "framework/judge/pictures.h"
+#include "framework/judge/primaries.h"
 #include "framework/judge/weights.h"
 
 namespace kaustik::judge {
@@ -23,12 +24,14 @@ constexpr double kMinCorrelation = 0.4;
 constexpr double kMinGainOfCause = 0.01;
 constexpr double kMinGainWithoutDirect = 0.15;
 constexpr double kMinCausticCorrelation = 0.7;
-// Another encoding than linear must leave less than this share of what is unexplained.
-constexpr double kMaxLossOfEncoding = 0.6;
 // Pixels behind glass that differ by less than this share of their light show no glass.
 constexpr double kMaxDifferenceBehindGlass = 0.35;
 // Less than this share of the direct light that is expected is none.
 constexpr double kMinDirectShare = 0.1;
+
+// Four pixels along an axis make one that lies between; columns and theirs are moved to either
+// side.
+constexpr int kInterpolationReach = 2;
 
 // Has the columns moved by half of what is not a whole pixel, where pixels are as large.
 void shareShift(Comparison& comparison) {
@@ -63,7 +66,8 @@ void align(Comparison& comparison) {
                              : comparison.clear;
     if (comparison.isGlassDecided && !comparison.glassIsHidden)
         comparison.counted = comparison.clear;
-    const Image linear = decoded(comparison.theirs, comparison.encoding);
+    const glm::dmat3 primaries = toRec709(comparison.primaries);
+    const Image linear = transformed(decoded(comparison.theirs, comparison.encoding), primaries);
     shareShift(comparison);
     Registration registration = comparison.registration;
     registration.shift -= comparison.columnShift;
@@ -78,8 +82,9 @@ void align(Comparison& comparison) {
     comparison.theirsError = Image();
     if (!isEmpty(comparison.subject.theirsError)) {
         Image ignored = comparison.counted;
-        comparison.theirsError = resampled(threeChannels(comparison.subject.theirsError),
-                                           registration, comparison.columns.front().image, ignored);
+        comparison.theirsError =
+            resampled(transformedError(threeChannels(comparison.subject.theirsError), primaries),
+                      registration, comparison.columns.front().image, ignored);
         for (float& value : comparison.theirsError.values)
             value = static_cast<float>(static_cast<double>(value) / comparison.firstExposure);
     }
@@ -118,38 +123,6 @@ Image registerPictures(Comparison& comparison) {
             comparison.registration.correlation));
     }
     return model;
-}
-
-std::vector<double> decideEncoding(Comparison& comparison) {
-    if (comparison.options.encoding != Encoding::automatic) {
-        comparison.encoding = comparison.options.encoding;
-        align(comparison);
-        return {};
-    }
-    std::vector<double> scores;
-    double best = 0.0;
-    Encoding found = Encoding::linear;
-    for (const Encoding encoding : {Encoding::linear, Encoding::srgb, Encoding::gamma22}) {
-        comparison.encoding = encoding;
-        align(comparison);
-        weighByLight(comparison);
-        makeEquations(comparison);
-        const LinearFit fitted = fit(
-            comparison,
-            columnsOf(comparison, {Role::direct, Role::lightClass, Role::shiftX, Role::shiftY}));
-        const double unexplained =
-            fitted.chiSquared / std::max(comparison.equations.squares, 1e-300);
-        scores.push_back(unexplained);
-        // Linear is the rule; of the others the better one.
-        if (encoding == Encoding::linear || unexplained < kMaxLossOfEncoding * best ||
-            (found != Encoding::linear && unexplained < best)) {
-            best = unexplained;
-            found = encoding;
-        }
-    }
-    comparison.encoding = found;
-    align(comparison);
-    return scores;
 }
 
 void decideGlass(Comparison& comparison) {

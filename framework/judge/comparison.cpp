@@ -10,36 +10,50 @@
 namespace kaustik::judge {
 namespace {
 
-// Blurred as irradiance, so that the colours of receivers stay sharp.
-Image blurredLight(const Comparison& comparison, const Image& radiance) {
-    if (!(comparison.blurPixels > 0.0)) return radiance;
+// Blurred as irradiance, so that the colours of receivers stay sharp. `power` is 1 of radiance, and
+// 2 of its variance, which falls by the blur: what is not taken off it would speak for any blur.
+Image blurredLight(const Comparison& comparison, const Image& radiance, int power) {
+    if (!(comparison.blurPixels > 0.0) || isEmpty(radiance)) return radiance;
     Image irradiance(radiance.width, radiance.height, 3);
     Image weight(radiance.width, radiance.height, 3);
-    for (std::size_t i = 0; i < radiance.values.size(); ++i) {
+    const auto fillAt = [&](std::size_t i) {
         const float fill = comparison.subject.fill.values[i];
-        if (!(fill > 0.0f) || comparison.subject.mask.values[i / 3] < 0.5f) continue;
-        irradiance.values[i] = radiance.values[i] / fill;
+        return power == 2 ? fill * fill : fill;
+    };
+    for (std::size_t i = 0; i < radiance.values.size(); ++i) {
+        if (!(fillAt(i) > 0.0f) || comparison.subject.mask.values[i / 3] < 0.5f) continue;
+        irradiance.values[i] = radiance.values[i] / fillAt(i);
         weight.values[i] = 1.0f;
     }
-    irradiance = blurred(irradiance, comparison.blurPixels);
+    irradiance = power == 2 ? blurredVariance(irradiance, comparison.blurPixels)
+                            : blurred(irradiance, comparison.blurPixels);
     weight = blurred(weight, comparison.blurPixels);
     Image result(radiance.width, radiance.height, 3);
     for (std::size_t i = 0; i < radiance.values.size(); ++i) {
-        if (weight.values[i] > 0.0f)
-            result.values[i] =
-                comparison.subject.fill.values[i] * irradiance.values[i] / weight.values[i];
+        const float whole = power == 2 ? weight.values[i] * weight.values[i] : weight.values[i];
+        if (whole > 0.0f) result.values[i] = fillAt(i) * irradiance.values[i] / whole;
     }
     return result;
 }
 
-Image quadraticSum(const std::vector<Light>& lights) {
+Image blurredError(const Comparison& comparison, const Image& error) {
+    if (!(comparison.blurPixels > 0.0)) return error;
+    Image variance = error;
+    for (float& value : variance.values)
+        value *= value;
+    variance = blurredLight(comparison, variance, 2);
+    for (float& value : variance.values)
+        value = std::sqrt(value);
+    return variance;
+}
+
+Image quadraticSum(const std::vector<Image>& errors) {
     Image result;
-    for (const Light& light : lights) {
-        if (isEmpty(light.error)) continue;
-        if (isEmpty(result))
-            result = Image(light.error.width, light.error.height, light.error.channels);
+    for (const Image& error : errors) {
+        if (isEmpty(error)) continue;
+        if (isEmpty(result)) result = Image(error.width, error.height, error.channels);
         for (std::size_t i = 0; i < result.values.size(); ++i)
-            result.values[i] = std::hypot(result.values[i], light.error.values[i]);
+            result.values[i] = std::hypot(result.values[i], error.values[i]);
     }
     return result;
 }
@@ -69,13 +83,16 @@ void makeColumns(Comparison& comparison, bool withCauses) {
     comparison.hasCauseColumns = withCauses;
     const glm::dvec2 by = comparison.columnShift;
     std::vector<Image> classes;
-    for (const Light& light : comparison.subject.classes)
-        classes.push_back(movedBy(blurredLight(comparison, light.radiance), by));
+    std::vector<Image> errors;
+    for (const Light& light : comparison.subject.classes) {
+        classes.push_back(movedBy(blurredLight(comparison, light.radiance, 1), by));
+        errors.push_back(blurredError(comparison, light.error));
+    }
     std::vector<const Image*> parts;
     for (const Image& image : classes)
         parts.push_back(&image);
     Image all = sum(parts);
-    Image allError = quadraticSum(comparison.subject.classes);
+    Image allError = quadraticSum(errors);
     Image direct = comparison.hasDirect ? movedBy(comparison.subject.direct, by) : Image();
     Image model = comparison.hasDirect ? sum({&direct, &all}) : all;
     Image dx = derivativeX(model);
@@ -88,7 +105,7 @@ void makeColumns(Comparison& comparison, bool withCauses) {
     }
     for (std::size_t k = 0; k < classes.size(); ++k) {
         comparison.columns.push_back(
-            {Role::lightClass, k, std::move(classes[k]), comparison.subject.classes[k].error});
+            {Role::lightClass, k, std::move(classes[k]), std::move(errors[k])});
     }
     comparison.columns.push_back({Role::shiftX, 0, std::move(dx), {}});
     comparison.columns.push_back({Role::shiftY, 0, std::move(dy), {}});
@@ -97,8 +114,8 @@ void makeColumns(Comparison& comparison, bool withCauses) {
     for (std::size_t k = 0; withCauses && k < comparison.subject.causes.size(); ++k) {
         comparison.columns.push_back(
             {Role::cause, k,
-             movedBy(blurredLight(comparison, comparison.subject.causes[k].radiance), by),
-             comparison.subject.causes[k].error});
+             movedBy(blurredLight(comparison, comparison.subject.causes[k].radiance, 1), by),
+             blurredError(comparison, comparison.subject.causes[k].error)});
     }
 }
 

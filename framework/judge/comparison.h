@@ -34,13 +34,15 @@ struct Comparison {
     bool glassIsHidden = false;
     Registration registration;
     Encoding encoding = Encoding::linear;
+    Primaries primaries = Primaries::rec709;
     double blurPixels = 0.0;  // standard deviation, of the reference's caustics
     // What the columns are moved by, pixels: half of the part of a pixel that the registration has,
     // and `picture` by the other half, so that interpolation blurs both alike.
     glm::dvec2 columnShift{0.0};
     bool hasCauseColumns = false;
 
-    Image picture;  // theirs in the reference's pixels, linear, over the first exposure
+    // Theirs in the reference's pixels, linear, in Rec. 709, over the first exposure.
+    Image picture;
     Image theirsError;
     double firstExposure = 1.0;
     std::vector<Column> columns;  // the first is the whole

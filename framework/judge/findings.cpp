@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "framework/judge/fitting.h"
+#include "framework/judge/primaries.h"
 #include "framework/judge/sentences.h"
 
 namespace kaustik::judge {
@@ -126,6 +127,21 @@ void addEncoding(const Comparison& comparison, const Evidence& evidence,
          also});
 }
 
+// What was asked for is no finding.
+void addPrimaries(const Comparison& comparison, const Evidence& evidence,
+                  std::vector<Finding>& findings) {
+    if (comparison.options.primaries != Primaries::automatic ||
+        comparison.primaries == Primaries::rec709)
+        return;
+    const auto sentence = [](Primaries primaries) {
+        return fmt::format("the picture is in {} primaries", titleOf(primaries));
+    };
+    std::vector<std::string> also;
+    for (const Primaries other : evidence.otherPrimaries)
+        also.push_back(sentence(other));
+    findings.push_back({"primaries", 0.0, 0.0, sentence(comparison.primaries), also});
+}
+
 // A factor of each channel for what is fitted to all of them together.
 void addChannels(const Comparison& comparison, const Evidence& evidence,
                  std::vector<Finding>& findings) {
@@ -212,6 +228,7 @@ std::vector<Finding> findingsOf(const Comparison& comparison, const Evidence& ev
     std::vector<Finding> findings;
     addRegistration(comparison, evidence, findings);
     addEncoding(comparison, evidence, findings);
+    addPrimaries(comparison, evidence, findings);
     addChannels(comparison, evidence, findings);
     addBlur(comparison, findings);
     addCauses(comparison, evidence, findings);

@@ -13,7 +13,8 @@ namespace kaustik::judge {
 
 // What the steps of a judgement have found.
 struct Evidence {
-    std::vector<double> encodingScores;  // as of decideEncoding()
+    std::vector<double> encodingScores;     // as of decideEncoding()
+    std::vector<Primaries> otherPrimaries;  // as of decidePrimaries()
     PlacementError placementError;
     std::optional<double> explainedShare;  // as of requireSameView()
     std::vector<Choice> choices;
@@ -22,7 +23,7 @@ struct Evidence {
     std::vector<ClassVerdict> classes;
 };
 
-// In the order of a report: registration, encoding, channels, blur, causes, classes.
+// In the order of a report: registration, encoding, primaries, channels, blur, causes, classes.
 [[nodiscard]] std::vector<Finding> findingsOf(const Comparison& comparison,
                                               const Evidence& evidence);
 // Those of the evidence's classes, on their own or with one factor of all of them.

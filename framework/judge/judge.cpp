@@ -8,6 +8,7 @@
 #include "framework/judge/alignment.h"
 #include "framework/judge/causes.h"
 #include "framework/judge/class_verdicts.h"
+#include "framework/judge/colour.h"
 #include "framework/judge/comparison.h"
 #include "framework/judge/findings.h"
 #include "framework/judge/fitting.h"
@@ -58,6 +59,8 @@ Verdict verdictOf(const Comparison& comparison, const Evidence& evidence) {
     verdict.theirs = comparison.subject.theirsName;
     verdict.registration = comparison.registration;
     verdict.encoding = comparison.encoding;
+    verdict.primaries = comparison.primaries;
+    verdict.otherPrimaries = evidence.otherPrimaries;
     verdict.hasDirect = comparison.hasDirect;
     verdict.glassIsHidden = comparison.glassIsHidden;
     verdict.exposure = evidence.exposure.ofTheirs;
@@ -78,11 +81,16 @@ Verdict judge(const Subject& subject, const JudgeOptions& options) {
     Evidence evidence;
     const Image model = registerPictures(comparison);
     evidence.encodingScores = decideEncoding(comparison);
+    static_cast<void>(decidePrimaries(comparison));
     requireNotCutOff(comparison, model);
     if (options.glass == Glass::automatic) decideGlass(comparison);
     requireCaustic(comparison.subject, comparison.counted);
     decideDirect(comparison);
     evidence.placementError = refinePlacement(comparison);
+    // Where it lies better, and beyond glass that is seen, there may be more to tell them by.
+    const Primaries before = comparison.primaries;
+    evidence.otherPrimaries = decidePrimaries(comparison);
+    if (comparison.primaries != before) evidence.placementError = refinePlacement(comparison);
     weighByNoise(comparison);
     decideBlur(comparison);
     weighByNoise(comparison);

@@ -54,19 +54,23 @@ struct NamedIndex {
 enum class DirectLight { automatic, with, without };
 enum class Glass { automatic, seen, hidden };
 enum class Encoding { automatic, linear, srgb, gamma22 };
+// Of linear light, with their white (primaries.h).
+enum class Primaries { automatic, rec709, rec2020, p3, acescg, aces2065 };
 
 struct JudgeOptions {
     DirectLight direct = DirectLight::automatic;
     Glass glass = Glass::automatic;  // whether their eye sees dielectrics, or straight through
     Encoding encoding = Encoding::automatic;
+    Primaries primaries = Primaries::automatic;
     std::optional<double> exposure;  // of theirs, where it is known
 };
 
 // The same in the words of a command line or of Python.
 struct NamedOptions {
-    std::string direct = "auto";    // or with, without
-    std::string glass = "auto";     // or seen, hidden
-    std::string encoding = "auto";  // or linear, srgb, gamma2.2
+    std::string direct = "auto";     // or with, without
+    std::string glass = "auto";      // or seen, hidden
+    std::string encoding = "auto";   // or linear, srgb, gamma2.2
+    std::string primaries = "auto";  // or rec709, rec2020, p3, acescg, aces2065
     std::optional<double> exposure;
 };
 using Spelling = std::function<std::string(const std::string& name)>;
@@ -117,6 +121,9 @@ struct Verdict {
     std::string theirs;
     Registration registration;
     Encoding encoding = Encoding::linear;
+    Primaries primaries = Primaries::rec709;
+    // That the colours of the picture do not tell from these; none where these were asked for.
+    std::vector<Primaries> otherPrimaries;
     bool hasDirect = true;
     bool glassIsHidden = false;
     double exposure = 1.0;
@@ -149,6 +156,7 @@ struct Verdict {
 [[nodiscard]] Image whereOf(const Verdict& verdict);
 
 [[nodiscard]] const char* nameOf(Encoding encoding);
+[[nodiscard]] const char* nameOf(Primaries primaries);
 // "light that is refracted twice" of "TT".
 [[nodiscard]] std::string titleOf(const std::string& className);
 

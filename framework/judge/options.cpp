@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "framework/core/error.h"
 #include "framework/judge/judge.h"
+#include "framework/judge/primaries.h"
 
 namespace kaustik::judge {
 
@@ -33,6 +36,17 @@ JudgeOptions optionsOf(const NamedOptions& names, const Spelling& spelled) {
     } else if (names.encoding != "auto") {
         throw ConfigError(fmt::format("{}: '{}' is neither auto, linear, srgb nor gamma2.2.",
                                       spelled("encoding"), names.encoding));
+    }
+    if (names.primaries != "auto") {
+        const auto found =
+            std::find_if(kAllPrimaries.begin(), kAllPrimaries.end(),
+                         [&](Primaries primaries) { return names.primaries == nameOf(primaries); });
+        if (found == kAllPrimaries.end()) {
+            throw ConfigError(
+                fmt::format("{}: '{}' is neither auto, rec709, rec2020, p3, acescg nor aces2065.",
+                            spelled("primaries"), names.primaries));
+        }
+        options.primaries = *found;
     }
     if (names.exposure && !(*names.exposure > 0.0))
         throw ConfigError(

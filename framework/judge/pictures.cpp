@@ -12,6 +12,22 @@ double linearOfSrgb(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
+std::vector<double> gaussianKernel(double sigma) {
+    const int reach = std::max(1, static_cast<int>(std::ceil(3.5 * sigma)));
+    std::vector<double> kernel;
+    double total = 0.0;
+    for (int i = -reach; i <= reach; ++i) {
+        // The part of the Gaussian that falls on the pixel: narrow ones keep their width too.
+        const double weight = std::erf((i + 0.5) / (sigma * std::sqrt(2.0))) -
+                              std::erf((i - 0.5) / (sigma * std::sqrt(2.0)));
+        kernel.push_back(weight);
+        total += weight;
+    }
+    for (double& weight : kernel)
+        weight /= total;
+    return kernel;
+}
+
 Image convolvedAlong(const Image& image, const std::vector<double>& kernel, bool isAlongX) {
     const int reach = static_cast<int>(kernel.size()) / 2;
     Image result(image.width, image.height, image.channels);
@@ -177,19 +193,16 @@ Image decoded(const Image& image, Encoding encoding) {
 
 Image blurred(const Image& image, double sigma) {
     if (!(sigma > 0.0)) return image;
-    const int reach = std::max(1, static_cast<int>(std::ceil(3.5 * sigma)));
-    std::vector<double> kernel;
-    double total = 0.0;
-    for (int i = -reach; i <= reach; ++i) {
-        // The part of the Gaussian that falls on the pixel: narrow ones keep their width too.
-        const double weight = std::erf((i + 0.5) / (sigma * std::sqrt(2.0))) -
-                              std::erf((i - 0.5) / (sigma * std::sqrt(2.0)));
-        kernel.push_back(weight);
-        total += weight;
-    }
-    for (double& weight : kernel)
-        weight /= total;
+    const std::vector<double> kernel = gaussianKernel(sigma);
     return convolvedAlong(convolvedAlong(image, kernel, true), kernel, false);
+}
+
+Image blurredVariance(const Image& variance, double sigma) {
+    if (!(sigma > 0.0)) return variance;
+    std::vector<double> squares = gaussianKernel(sigma);
+    for (double& weight : squares)
+        weight *= weight;
+    return convolvedAlong(convolvedAlong(variance, squares, true), squares, false);
 }
 
 Image sum(const std::vector<const Image*>& images) {

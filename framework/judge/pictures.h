@@ -20,6 +20,8 @@ namespace kaustik::judge {
 [[nodiscard]] Image decoded(const Image& image, Encoding encoding);
 // Convolved with a Gaussian of that standard deviation, in pixels; edges repeat.
 [[nodiscard]] Image blurred(const Image& image, double sigma);
+// The variance of the same, where that of each pixel is given and pixels are independent.
+[[nodiscard]] Image blurredVariance(const Image& variance, double sigma);
 [[nodiscard]] Image sum(const std::vector<const Image*>& images);
 // Half of the difference of the neighbours: the derivative by pixels.
 [[nodiscard]] Image derivativeX(const Image& image);

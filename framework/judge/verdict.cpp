@@ -7,10 +7,32 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/judge/judge.h"
+#include "framework/judge/primaries.h"
 
 namespace kaustik::judge {
 
 using nlohmann::json;
+
+namespace {
+
+// A line where its colours tell its primaries from few others, or from none; else nothing.
+std::string untoldPrimaries(const Verdict& verdict) {
+    const std::vector<Primaries>& others = verdict.otherPrimaries;
+    if (others.empty()) return "";
+    if (others.size() + 1 == kAllPrimaries.size()) {
+        return fmt::format(
+            "its primaries cannot be told, since it has too little colour, and are taken for "
+            "{}\n",
+            titleOf(verdict.primaries));
+    }
+    std::string names;
+    for (std::size_t k = 0; k < others.size(); ++k) {
+        names += (k == 0 ? "" : k + 1 < others.size() ? ", " : " or ") + titleOf(others[k]);
+    }
+    return fmt::format("its primaries cannot be told from {}\n", names);
+}
+
+}  // namespace
 
 const char* nameOf(Encoding encoding) {
     switch (encoding) {
@@ -22,6 +44,23 @@ const char* nameOf(Encoding encoding) {
             return "auto";
         default:
             return "linear";
+    }
+}
+
+const char* nameOf(Primaries primaries) {
+    switch (primaries) {
+        case Primaries::rec2020:
+            return "rec2020";
+        case Primaries::p3:
+            return "p3";
+        case Primaries::acescg:
+            return "acescg";
+        case Primaries::aces2065:
+            return "aces2065";
+        case Primaries::automatic:
+            return "auto";
+        default:
+            return "rec709";
     }
 }
 
@@ -62,6 +101,9 @@ json toJson(const Verdict& verdict) {
                            {"c_stderr", std::isfinite(of.error) ? json(of.error) : json(nullptr)},
                            {"verdict", of.verdict}});
     }
+    json otherPrimaries = json::array();
+    for (const Primaries primaries : verdict.otherPrimaries)
+        otherPrimaries.push_back(nameOf(primaries));
     json findings = json::array();
     for (const Finding& finding : verdict.findings) {
         findings.push_back({{"name", finding.name},
@@ -80,6 +122,8 @@ json toJson(const Verdict& verdict) {
               {"shift_px", {verdict.registration.shift.x, verdict.registration.shift.y}},
               {"correlation", verdict.registration.correlation}}},
             {"encoding", nameOf(verdict.encoding)},
+            {"primaries", nameOf(verdict.primaries)},
+            {"other_primaries", otherPrimaries},
             {"direct_light", verdict.hasDirect},
             {"glass_hidden", verdict.glassIsHidden},
             {"exposure", verdict.exposure},
@@ -115,8 +159,10 @@ std::string toText(const Verdict& verdict) {
             "edge or nothing, on {:.1f} % the eye sees glass, {:.1f} % are outside the picture)\n",
             100.0 * share, 100.0 * out.notDiffuse, 100.0 * out.glass, 100.0 * out.outside);
     }
-    text += fmt::format("exposure {:.5g} ± {:.2g}, by {}; values are {}\n\n", verdict.exposure,
-                        verdict.exposureError, verdict.exposureBy, nameOf(verdict.encoding));
+    text += fmt::format("exposure {:.5g} ± {:.2g}, by {}; values are {}, in {} primaries\n",
+                        verdict.exposure, verdict.exposureError, verdict.exposureBy,
+                        nameOf(verdict.encoding), titleOf(verdict.primaries));
+    text += untoldPrimaries(verdict) + "\n";
     text += fmt::format("{:<14} {:>9}  {:>8} {:>8}  {}\n", "class", "of light", "c", "±", "");
     for (const ClassVerdict& of : verdict.classes) {
         text += fmt::format("{:<14} {:>7.2f} %  {:>8.3f} {:>8.3f}  {}\n", of.name,

@@ -27,24 +27,83 @@ constexpr double kMinBlurPixels = 0.35;
 // those that are tried. Any blur makes a reference with noise fit a little better.
 constexpr double kMaxLossOfBlur = 0.95;
 constexpr double kFalseAlarmRate = 0.01;
+// A mistake with this share of the light's coefficient may have been made as a whole.
+constexpr double kMinWholeShare = 0.25;
 
-// By how much values bend to their neighbours', along the axes that are interpolated.
+// By how much values bend to their neighbours', along the axes that are interpolated: there or next
+// to it, since in the middle of an edge between two pixels they do not bend.
 Image curvatureOf(const Image& image, const glm::dvec2& shift) {
     Image result(image.width, image.height, image.channels);
     const auto at = [&](int x, int y, int c) {
         return image.at(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1), c);
     };
+    const auto greatest = [&](int x, int y, int c, int dx, int dy) {
+        float bend = 0.0f;
+        for (int i = -1; i <= 1; ++i) {
+            const int column = x + i * dx;
+            const int row = y + i * dy;
+            bend =
+                std::max(bend, std::abs(at(column - dx, row - dy, c) +
+                                        at(column + dx, row + dy, c) - 2.0f * at(column, row, c)));
+        }
+        return bend;
+    };
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
             for (int c = 0; c < image.channels; ++c) {
                 float& sum = result.at(x, y, c);
-                const float twice = 2.0f * at(x, y, c);
-                if (shift.x != 0.0) sum += std::abs(at(x - 1, y, c) + at(x + 1, y, c) - twice);
-                if (shift.y != 0.0) sum += std::abs(at(x, y - 1, c) + at(x, y + 1, c) - twice);
+                if (shift.x != 0.0) sum += greatest(x, y, c, 1, 0);
+                if (shift.y != 0.0) sum += greatest(x, y, c, 0, 1);
             }
         }
     }
     return result;
+}
+
+// What of chi squared a blur may take away for there being less noise: of the classes, whose noise
+// is known and taken off in the mean, what chance makes of it; of mistakes, where it is estimated,
+// all of it.
+double gainByNoise(const Comparison& comparison, const LinearFit& fitted) {
+    double squares = 0.0;
+    double estimated = 0.0;
+    for (std::size_t i = 0; i < comparison.weight.values.size(); ++i) {
+        double known = 0.0;
+        for (std::size_t j = 0; j < fitted.columns.size(); ++j) {
+            const Column& column = comparison.columns[fitted.columns[j]];
+            if (isEmpty(column.error)) continue;
+            const double variance =
+                static_cast<double>(comparison.weight.values[i]) *
+                std::pow(fitted.values[j] * static_cast<double>(column.error.values[i]), 2.0);
+            (column.role == Role::cause ? estimated : known) += variance;
+        }
+        squares += known * known;
+    }
+    return kSignificantErrors * std::sqrt(2.0 * squares) + estimated;
+}
+
+// A mistake that was made as a whole brings noise of its own: it is not the difference of the same
+// photons' paths. Sets its error by how what is left differs from pixel to pixel where it is as
+// large; gives the variance of those that are in the fit.
+Image estimateNoiseOfMistakes(Comparison& comparison, const LinearFit& fitted,
+                              const Image& residual, const Image& known) {
+    Image variance(residual.width, residual.height, 3);
+    const double light = lightOf(comparison, fitted);
+    for (const std::size_t place : columnsOf(comparison, {Role::cause})) {
+        Column& column = comparison.columns[place];
+        Cause& cause = comparison.subject.causes[column.index];
+        const double made = coefficientOf(fitted, place);
+        if (cause.kind != CauseKind::whole || !(made > kMinWholeShare * light)) continue;
+        Image size = column.image;
+        for (float& value : size.values)
+            value = std::abs(value);
+        column.error = noiseOf(residual, size, known, comparison.counted);
+        for (std::size_t i = 0; i < variance.values.size(); ++i) {
+            variance.values[i] += column.error.values[i] * column.error.values[i];
+            column.error.values[i] /= static_cast<float>(made);
+        }
+        if (!(comparison.blurPixels > 0.0)) cause.error = column.error;
+    }
+    return variance;
 }
 
 }  // namespace
@@ -104,6 +163,7 @@ void weighByNoise(Comparison& comparison) {
                           : comparison.theirsError;
         const double mean = total(prediction, comparison.counted) /
                             std::max(3.0 * pixelCount(comparison.counted), 1.0);
+        const Image byMistakes = estimateNoiseOfMistakes(comparison, fitted, residual, known);
         const Image curvature = curvatureOf(prediction, comparison.columnShift);
         comparison.deviation = Image(comparison.picture.width, comparison.picture.height, 3);
         for (std::size_t i = 0; i < noise.values.size(); ++i) {
@@ -113,6 +173,7 @@ void weighByNoise(Comparison& comparison) {
             const double variance =
                 interpolated * interpolated + std::pow(static_cast<double>(noise.values[i]), 2.0) +
                 std::pow(static_cast<double>(known.values[i]), 2.0) +
+                static_cast<double>(byMistakes.values[i]) +
                 std::pow(kNoiseFloorOfLight * light, 2.0) + std::pow(kNoiseFloorOfMean * mean, 2.0);
             comparison.deviation.values[i] = static_cast<float>(std::sqrt(variance));
             comparison.weight.values[i] = comparison.counted.values[i / 3] > 0.5f && variance > 0.0
@@ -124,30 +185,32 @@ void weighByNoise(Comparison& comparison) {
 }
 
 void decideBlur(Comparison& comparison) {
-    const auto unexplained = [&](double sigma) {
+    const auto fitBlurred = [&](double sigma) {
         comparison.blurPixels = sigma;
         makeColumns(comparison, true);
         makeEquations(comparison);
-        return fit(comparison,
-                   columnsOf(comparison, {Role::direct, Role::lightClass, Role::cause, Role::fill}))
-            .chiSquared;
+        return fit(comparison, columnsOf(comparison, {Role::direct, Role::lightClass, Role::cause,
+                                                      Role::fill}));
     };
-    const double sharp = unexplained(0.0);
+    const LinearFit plain = fitBlurred(0.0);
+    const double sharp = plain.chiSquared;
+    const double byNoise = gainByNoise(comparison, plain);
     double best = sharp;
     double found = 0.0;
     constexpr std::array kSigmas = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0};
     for (const double sigma : kSigmas) {
-        const double now = unexplained(sigma);
+        const double now = fitBlurred(sigma).chiSquared;
         if (now >= best) continue;
         best = now;
         found = sigma;
     }
     // In units of what is left of a value: the likelihood ratio's test of one parameter.
-    const double unit =
-        std::max(1.0, best / std::max(static_cast<double>(comparison.equations.rows), 1.0));
-    const double critical =
+    const auto rows = static_cast<double>(comparison.equations.rows);
+    const double unit = std::max(1.0, best / std::max(rows, 1.0));
+    double critical =
         unit *
         criticalChiSquared(chanceOfEach(kFalseAlarmRate, static_cast<double>(kSigmas.size())), 1);
+    critical = std::max(critical, byNoise);
     if (best > kMaxLossOfBlur * sharp || sharp - best < critical || found < kMinBlurPixels)
         found = 0.0;
     comparison.blurPixels = found;

@@ -34,17 +34,18 @@ bool isFile(const py::object& value) {
 
 py::tuple judgeTheirs(const py::object& scene, const std::string& base, const py::object& theirs,
                       const py::object& size, const std::string& direct, const std::string& glass,
-                      const std::string& encoding, std::optional<double> exposure,
-                      const py::object& standardError, long long photons, long long seed,
-                      int classes, bool causes) {
+                      const std::string& encoding, const std::string& primaries,
+                      std::optional<double> exposure, const py::object& standardError,
+                      long long photons, long long seed, int classes, bool causes) {
     const SceneSource source(scene, base);
     const std::string name = isFile(theirs) ? settingText("theirs", theirs) : "The picture";
     if (isFile(theirs) && measure::isDisplayPicture(name)) {
         throw ConfigError(
             fmt::format("{} was made for a display; save linear light as .exr or .pfm.", name));
     }
-    const judge::JudgeOptions options = judge::optionsOf(
-        {direct, glass, encoding, exposure}, [](const std::string& word) { return word; });
+    const judge::JudgeOptions options =
+        judge::optionsOf({direct, glass, encoding, primaries, exposure},
+                         [](const std::string& word) { return word; });
     if (classes < 1 || classes > 32)
         throw ConfigError(fmt::format("classes: {} is not from 1 to 32.", classes));
     const Image picture = imageFrom(theirs, "theirs");
@@ -111,8 +112,8 @@ py::dict exportTo(const py::object& scene, const std::string& base, const std::s
 void bindJudge(py::module_& module) {
     module.def("judge", &judgeTheirs, py::arg("scene"), py::arg("base"), py::arg("theirs"),
                py::arg("size"), py::arg("direct"), py::arg("glass"), py::arg("encoding"),
-               py::arg("exposure"), py::arg("standard_error"), py::arg("photons"), py::arg("seed"),
-               py::arg("classes"), py::arg("causes"));
+               py::arg("primaries"), py::arg("exposure"), py::arg("standard_error"),
+               py::arg("photons"), py::arg("seed"), py::arg("classes"), py::arg("causes"));
     module.def("export", &exportTo, py::arg("scene"), py::arg("base"), py::arg("to"),
                py::arg("out"), py::arg("size"), py::arg("photons"));
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "framework/core/files.h"
 #include "tests/cli/fixture.h"
@@ -187,6 +188,61 @@ TEST_F(Census, EndsAtASignalAndWritesNothing) {
     program.send(SIGINT);
     expectFailure(program.wait(), 1, {"Interrupted"});
     EXPECT_FALSE(std::filesystem::exists(folder / "out/census.json"));
+}
+
+TEST_F(Census, KeepsTheRowsThatAreDoneWhereItIsInterrupted) {
+    Conditions conditions;
+    conditions.folder = folder / ".";
+    conditions.environment = {{"KAUSTIK_CACHE", (folder / "cache").string()}};
+    // All techniques, of which the first is soon done.
+    Program program({"census", "wavy.toml", "--photons", "100000", "--size", "64x48",
+                     "--technique-photons", "32x32", "--out", "out"},
+                    conditions);
+    const auto hasKept = [&] {
+        std::error_code ignored;
+        for (const auto& entry :
+             std::filesystem::directory_iterator(folder / "out/census.unfinished", ignored)) {
+            if (entry.path().filename().string().starts_with("census-1-of-")) return true;
+        }
+        return false;
+    };
+    while (program.isRunning() && !hasKept())
+        std::this_thread::yield();
+    program.send(SIGINT);
+    expectFailure(program.wait(), 1, {"Interrupted after ", "rows of techniques", "goes on"});
+    EXPECT_TRUE(hasKept());
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/census.json"));
+}
+
+// A row that is there is taken as it is, if it is of the same census, and else made again.
+TEST_F(Census, GoesOnFromTheRowsThatAreThere) {
+    const std::vector<std::string> both = {"--technique", "caustic_map", "--out"};
+    const auto into = [&](const char* out) {
+        std::vector<std::string> arguments = both;
+        arguments.emplace_back(out);
+        return census(arguments);
+    };
+    ASSERT_EQ(into("whole").exitCode, 0);
+    const json whole = json::parse(readFile(folder / "whole/census.json"));
+    const std::size_t rows = whole.at("techniques").size();
+    ASSERT_GE(rows, 2u);
+    std::vector<std::string> shard = both;
+    shard.insert(shard.end(), {"parts", "--shard", "1/" + std::to_string(rows)});
+    ASSERT_EQ(census(shard).exitCode, 0);
+    const std::string name = "census-1-of-" + std::to_string(rows) + ".json";
+    const auto goOnFrom = [&](const std::string& settings) {
+        json part = json::parse(readFile(folder / "parts" / name));
+        part.at("techniques")[0].at("forms_w") = 1.25;
+        part.at("settings") = settings;
+        writeFileWhole(folder / "out/census.unfinished" / name, part.dump());
+        EXPECT_EQ(into("out").exitCode, 0);
+        EXPECT_FALSE(std::filesystem::exists(folder / "out/census.unfinished"));
+        return json::parse(readFile(folder / "out/census.json"));
+    };
+    json expected = whole;
+    expected.at("techniques")[0].at("forms_w") = 1.25;
+    EXPECT_EQ(goOnFrom(whole.at("settings")), expected);
+    EXPECT_EQ(goOnFrom("emit.photons=32x32"), whole);
 }
 
 TEST_F(Census, RefusesWhatMakesNoSenseInASentence) {

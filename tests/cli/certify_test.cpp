@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // kaustik certify, and run --reference certified.
+#include <signal.h>
+
 #include <filesystem>
 
 #include "framework/image/image.h"
@@ -71,6 +73,20 @@ TEST_F(Certify, MergesShardsToTheSameBounds) {
     EXPECT_EQ(image("merged.upper.exr").values, image("whole.upper.exr").values);
     expectFailure(run({"certify", "wavy.toml", "--merge", "2.shard", "--out", "merged.exr"}), 2,
                   {"these are missing: 1"});
+}
+
+// So narrow a band takes longer than anybody waits.
+TEST_F(Certify, EndsAtASignalAndGoesOnFromWhatIsDone) {
+    Conditions conditions;
+    conditions.folder = folder / ".";
+    Program program(
+        {"certify", "wavy.toml", "--size", "400x300", "--band", "1e-4", "--out", "bounds.exr"},
+        conditions);
+    program.waitUntilItHandles(SIGINT);
+    program.send(SIGINT);
+    expectFailure(program.wait(), 1, {"Interrupted after ", "blocks", "goes on"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "bounds.json"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "bounds.exr.unfinished"));
 }
 
 TEST_F(Certify, ProvesWhereATechniqueIsWrong) {

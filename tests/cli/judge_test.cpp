@@ -137,6 +137,7 @@ TEST_F(Judge, FindsThePhotonsOfPovrayRight) {
     EXPECT_NEAR(verdict.at("exposure").get<double>(), 1.0, 0.01);
     EXPECT_EQ(verdict.at("registration").at("shift_px"), json({0.0, 0.0}));
     EXPECT_EQ(verdict.at("encoding"), "linear");
+    EXPECT_EQ(verdict.at("primaries"), "rec709");
     // Light that is reflected once, all but all of the caustic, to 5 %.
     const json& first = verdict.at("classes").at(0);
     EXPECT_EQ(first.at("name"), "R");
@@ -234,6 +235,8 @@ TEST_F(Judge, RefusesWhatItCannotJudgeInOneSentence) {
                   {"--caustic-only", "--with-direct"});
     expectFailure(judge({"holes.exr", "--glass", "maybe"}), 2, {"--glass", "maybe", "hidden"});
     expectFailure(judge({"holes.exr", "--encoding", "log"}), 2, {"--encoding", "log", "srgb"});
+    expectFailure(judge({"holes.exr", "--primaries", "ntsc"}), 2,
+                  {"--primaries", "ntsc", "rec2020", "aces2065"});
     expectFailure(judge({"holes.exr", "--exposure", "0"}), 2, {"--exposure"});
 }
 

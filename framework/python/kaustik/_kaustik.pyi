@@ -143,6 +143,7 @@ def judge(
     direct: str,
     glass: str,
     encoding: str,
+    primaries: str,
     exposure: Optional[float],
     standard_error: Any,
     photons: int,
@@ -162,6 +163,9 @@ def certify(
     threads: int,
     image: Any,
     progress: Optional[Callable[[float, str], Any]],
+    shard: str,
+    merge: Sequence[Union[str, "os.PathLike[str]"]],
+    out: Union[str, "os.PathLike[str]"],
 ) -> Dict[str, Any]: ...
 def export(
     scene: Any, base: str, to: str, out: Union[str, "os.PathLike[str]"], size: Any, photons: int

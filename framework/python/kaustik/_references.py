@@ -90,7 +90,8 @@ def census(
     theirs. What it finds of the paths is kept, so that reports and explain() say what their
     technique cannot form. shard ("2/8") accounts for the second of eight parts of the techniques and
     writes it into the folder out, merge puts the files of all parts together, which say what they
-    were asked for. Ctrl-C ends it.
+    were asked for. Ctrl-C ends it; with out, and no shard, the next call goes on from the techniques
+    that are done.
     """
     command = ["census", os.fspath(scene), "--json", "--photons", str(photons)]
     command += ["--size", f"{size[0]}x{size[1]}"]
@@ -137,6 +138,7 @@ def judge(
     direct: str = "auto",
     glass: str = "auto",
     encoding: str = "auto",
+    primaries: str = "auto",
     exposure: Optional[float] = None,
     standard_error: Optional[ImageLike] = None,
     size: Optional[Size] = None,
@@ -152,9 +154,10 @@ def judge(
 
     theirs is an array of linear light, H x W or H x W x C, or a file (.exr, .pfm). direct is
     "with", "without" or "auto" (found out), glass "seen", "hidden" or "auto", encoding "linear",
-    "srgb", "gamma2.2" or "auto". size is the reference's, that of theirs if not given; causes asks
-    for references of what may be wrong too (indices, lights, normals). References are cached.
-    ConfigError for what cannot be judged: another scene's picture, one for a display, no caustic.
+    "srgb", "gamma2.2" or "auto", primaries "rec709", "rec2020", "p3", "acescg", "aces2065" or
+    "auto". size is the reference's, that of theirs if not given; causes asks for references of what
+    may be wrong too (indices, lights, normals). References are cached. ConfigError for what cannot
+    be judged: another scene's picture, one for a display, no caustic.
     """
     found, text, residual, where = _kaustik.judge(
         scene,
@@ -164,6 +167,7 @@ def judge(
         direct,
         glass,
         encoding,
+        primaries,
         exposure,
         standard_error,
         photons,
@@ -205,6 +209,9 @@ def certify(
     threads: int = 0,
     image: Optional[ImageLike] = None,
     progress: Optional[Callable[[float, str], Any]] = None,
+    shard: str = "",
+    merge: Sequence[Union[str, "os.PathLike[str]"]] = (),
+    out: Union[str, "os.PathLike[str]"] = "",
     base: Union[str, "os.PathLike[str]"] = "",
 ) -> Dict[str, Any]:
     """An interval for the caustic irradiance of every pixel, with a proof, as `kaustik certify` has
@@ -216,6 +223,11 @@ def certify(
     (how many pixels are proved wrong) and where (H x W x 3 for a display: blue proved too dark, red
     too bright, orange too bright for these paths, green undecided). ConfigError for what cannot be
     certified. progress(share, text) is told now and then; what it raises ends the work.
+
+    shard ("2/8") makes the second of eight parts and writes it to the .shard out; then there are only
+    shard, cells, seconds and file. merge puts the files of all parts of this scene together, which
+    say what they were asked for. Else out, an .exr or .pfm, names what is written, as `kaustik certify`
+    does it. What is interrupted with out goes on from there in the next call.
     """
     if isinstance(image, Reference):
         image = image.irradiance
@@ -231,6 +243,9 @@ def certify(
         threads,
         image,
         progress,
+        shard,
+        [os.fspath(part) for part in merge],
+        os.fspath(out),
     )
 
 
