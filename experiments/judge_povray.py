@@ -22,7 +22,8 @@ ROOT = Path(__file__).resolve().parent
 sys.path.insert(0, str(ROOT / "plotting"))
 from maker import Maker, made, now, rows_in, write_whole  # noqa: E402
 
-SCENES = ["flat-water", "ring", "concave-glass", "pool-reflections", "glass-sphere", str(ROOT / "judge/ball-in-sun.toml")]
+SCENES = ["flat-water", "ring", "concave-glass", "pool-reflections", "glass-sphere",
+          *(str(ROOT / f"judge/{name}.toml") for name in ("ball-in-sun", "far-lamp", "clear-pool"))]
 
 
 def output_of(command: list[str], folder: Path | None = None) -> str:
