@@ -22,6 +22,9 @@ constexpr double kMaxLossOfPrimaries = 0.8;
 constexpr double kEqualPrimaries = 1.15;
 // What no picture is better than: 0.3 % of the light, squared.
 constexpr double kLeastUnexplained = 1e-5;
+// Where less than this share of the light is of the caustic direct light says alone which primaries
+// they are. Colours of the caustic may be wrong for other reasons: by what a body absorbs.
+constexpr float kMaxCausticOfDirect = 0.02f;
 
 constexpr std::initializer_list<Role> kPlacedLight = {Role::direct, Role::lightClass, Role::shiftX,
                                                       Role::shiftY};
@@ -79,6 +82,25 @@ double unexplainedByChannel(Comparison& comparison) {
     return std::max(left, 0.0) / std::max(squares, 1e-300) + kLeastUnexplained;
 }
 
+// Whether light that came directly speaks for these primaries as well, where there is such.
+bool isBorneOutByDirectLight(Comparison& comparison, Primaries primaries) {
+    const std::vector<std::size_t> direct = columnsOf(comparison, {Role::direct});
+    if (direct.empty()) return true;
+    const Image& light = comparison.columns[direct.front()].image;
+    const Image& caustic =
+        comparison.columns[columnsOf(comparison, {Role::allClasses}).front()].image;
+    const Image weight = comparison.weight;
+    for (std::size_t i = 0; i < weight.values.size(); ++i) {
+        if (!(caustic.values[i] < kMaxCausticOfDirect * light.values[i]))
+            comparison.weight.values[i] = 0.0f;
+    }
+    const auto score = [&] { return unexplainedByChannel(comparison); };
+    const double rule = inSpace(comparison, Primaries::rec709, score);
+    const double found = inSpace(comparison, primaries, score);
+    comparison.weight = weight;
+    return found < kMaxLossOfPrimaries * rule;
+}
+
 }  // namespace
 
 std::vector<double> decideEncoding(Comparison& comparison) {
@@ -128,7 +150,9 @@ std::vector<Primaries> decidePrimaries(Comparison& comparison) {
     const auto best =
         static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
     // Rec. 709 is the rule, and the first.
-    const std::size_t found = scores[best] < kMaxLossOfPrimaries * scores.front() ? best : 0;
+    const bool isOther = scores[best] < kMaxLossOfPrimaries * scores.front() &&
+                         isBorneOutByDirectLight(comparison, kAllPrimaries[best]);
+    const std::size_t found = isOther ? best : 0;
     std::vector<Primaries> others;
     for (std::size_t k = 0; k < scores.size(); ++k) {
         if (k != found && scores[k] < kEqualPrimaries * scores[found])

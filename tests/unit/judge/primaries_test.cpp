@@ -215,6 +215,20 @@ TEST(Primaries, AreNoWhiteBalanceOfAColouredPicture) {
     EXPECT_EQ(verdict.findings.size(), 1u) << toText(verdict);
 }
 
+// As that of a body that absorbs, in a renderer that forgets it: direct light speaks against it.
+TEST(Primaries, AreNotTheColoursOfTheCausticAlone) {
+    Image direct = theirPicture({.ring = 0.0, .spot = 0.0, .streak = 0.0}, 1.0);
+    Image caustic = theirPicture({.direct = 0.0}, 1.0);
+    paint(direct, kColours);
+    paint(caustic, kColours);
+    Image theirs = transformed(caustic, glm::inverse(published().front().toRec709));
+    for (std::size_t i = 0; i < theirs.values.size(); ++i)
+        theirs.values[i] += direct.values[i];
+    const Verdict verdict = judge(paintedSubject(kColours, theirs), {});
+    EXPECT_EQ(verdict.primaries, Primaries::rec709) << toText(verdict);
+    EXPECT_EQ(find(verdict, "primaries"), nullptr) << toText(verdict);
+}
+
 TEST(Primaries, AreAskedForByName) {
     const auto asked = [](const std::string& word) {
         NamedOptions names;
