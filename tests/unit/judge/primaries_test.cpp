@@ -218,7 +218,7 @@ TEST(Primaries, AreNoWhiteBalanceOfAColouredPicture) {
 // As that of a body that absorbs, in a renderer that forgets it: direct light speaks against it.
 TEST(Primaries, AreNotTheColoursOfTheCausticAlone) {
     Image direct = theirPicture({.ring = 0.0, .spot = 0.0, .streak = 0.0}, 1.0);
-    Image caustic = theirPicture({.direct = 0.0}, 1.0);
+    Image caustic = theirPicture({.direct = 0.0, .ring = 3.0, .spot = 3.0, .streak = 3.0}, 1.0);
     paint(direct, kColours);
     paint(caustic, kColours);
     Image theirs = transformed(caustic, glm::inverse(published().front().toRec709));
