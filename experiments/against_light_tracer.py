@@ -5,7 +5,7 @@
     against_light_tracer.py --out FILE [--kaustik build/release/bin/kaustik] [--scenes NAME...] [--technique exact_rays] [--rounds 3]
                             [--size 400x300] [--reference-photons 16777216] [--threads 0] [-- options of kaustik run...]
 
-For each scene, in each round: `kaustik run`, and `kaustik reference` (every photon straight into its pixel) with few photons and with many, out
+For each scene (those that are shipped and the room of water, or those that are named), in each round: `kaustik run`, and `kaustik reference` (every photon straight into its pixel) with few photons and with many, out
 of an empty cache. The time of ours is of all passes of the caustic, as in table.py; the light tracer's a photon is the difference of its two
 runs, and its error falls as one over its photons, from the run with many. Both errors are against the same reference and net of its noise. SMAPE
 falls as its two runs say. Writes a row a scene: medians over the rounds, and the least and the largest factor. A row that is in FILE already is
@@ -28,6 +28,7 @@ from study import device_of  # noqa: E402
 from table import CAUSTIC  # noqa: E402
 
 FEW, MANY = 1048576, 4194304
+ROOM = "experiments/room_of_water/room_of_water.toml"
 COLUMNS = ["scene", "technique", "status", "rounds", "ms", "relMSE, net", "SMAPE", "us a photon", "light tracer's photons", "light tracer's ms", "factor",
            "low", "high", "by SMAPE", "message", "device", "version", "date", "other_processors"]
 
@@ -91,7 +92,7 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=0)
     parser.add_argument("more", nargs="*", help="options of kaustik run")
     options = parser.parse_args()
-    scenes = options.scenes or [line.split()[0] for line in kaustik(options.kaustik, "list", "scenes").splitlines()]
+    scenes = options.scenes or [*(line.split()[0] for line in kaustik(options.kaustik, "list", "scenes").splitlines()), ROOM]
     done = set()
     if options.out.exists():
         with options.out.open(newline="") as stream:
@@ -102,15 +103,16 @@ def main() -> None:
         if not done:
             writer.writeheader()
         for scene in scenes:
-            if (scene, options.technique) in done:
+            name = pathlib.PurePath(scene).stem
+            if (name, options.technique) in done:
                 continue
             try:
                 row = measure(options, scene)
             except (KeyError, TypeError):  # no caustic, and so no error
                 row = {"status": "failed", "message": "no caustic"}
-            writer.writerow(row | {"scene": scene, "technique": options.technique})
+            writer.writerow(row | {"scene": name, "technique": options.technique})
             stream.flush()
-            print(f"{scene}: {row.get('message') or row['factor']}", flush=True)
+            print(f"{name}: {row.get('message') or row['factor']}", flush=True)
 
 
 if __name__ == "__main__":

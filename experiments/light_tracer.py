@@ -68,7 +68,7 @@ def processor(threads: int) -> str:
 
 
 def measure(options, scene: str, estimator: str, photons: int, folder: pathlib.Path) -> dict:
-    reference, image = folder / f"{scene}.exr", folder / "image.exr"
+    reference, image = folder / f"{pathlib.PurePath(scene).stem}.exr", folder / "image.exr"
     if not reference.exists():
         kaustik(options.kaustik, "reference", scene, "--size", options.size, "--photons", options.reference_photons,
                 "--out", reference)

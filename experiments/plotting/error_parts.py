@@ -37,6 +37,7 @@ from study import device_of
 
 FEWEST = 8  # runs: three counts of photons, two repeats of the middle one, the same three with finer pixels
 PARTS = ("noise", "photons", "pixels", "stays")
+IN_PART = "runs are there"  # how the status of a line ends of which more are missing
 COLUMNS = ("scene", "technique", "status", "relMSE", *PARTS, "extrapolated", "version", "device", "sources", "date", "other_processors")
 
 
@@ -138,7 +139,7 @@ def tabled(results: Path) -> list[dict]:
         line = {"scene": scene, "technique": technique, **of_the_runs(group, keys)}
         failed = next((row for row in group if row["status"] != "done"), None)
         if failed or len(group) < wanted:
-            line["status"] = failed["message"].split(",")[0] if failed else f"{len(group)} of {wanted} runs are there"
+            line["status"] = failed["message"].split(",")[0] if failed else f"{len(group)} of {wanted} {IN_PART}"
         elif wanted < FEWEST:
             line["status"] = f"{wanted} runs are too few to tell parts"
         else:
@@ -151,14 +152,16 @@ def tabled(results: Path) -> list[dict]:
     return table
 
 
-def kept(file: Path, table: list[dict]) -> list[dict]:
-    """The lines of a table that was written before, but for those that there are anew."""
+def with_those_of_before(table: list[dict], file: Path) -> list[dict]:
+    """And the lines that were written before: all that there are not anew, or only in part."""
     if not file.is_file():
-        return []
-    anew = {(line["scene"], line["technique"]) for line in table}
+        return table
     with file.open(newline="", encoding="utf-8") as stream:
-        lines = [line for line in csv.DictReader(stream) if (line["scene"], line["technique"]) not in anew]
-    return [line | {part: float(line[part]) for part in ("relMSE", *PARTS) if line[part]} for line in lines]
+        before = {(line["scene"], line["technique"]): line for line in csv.DictReader(stream)}
+    lines = {key: line | {part: float(line[part]) for part in ("relMSE", *PARTS) if line[part]} for key, line in before.items()}
+    lines |= {(line["scene"], line["technique"]): line for line in table
+              if not (line["status"].endswith(IN_PART) and (line["scene"], line["technique"]) in before)}
+    return [line for _, line in sorted(lines.items())]
 
 
 def draw(table: list[dict], file: Path) -> None:
@@ -197,7 +200,7 @@ def main() -> int:
     table = tabled(arguments.results)
     arguments.out.mkdir(parents=True, exist_ok=True)
     if arguments.keep:
-        table = sorted(table + kept(arguments.out / "parts.csv", table), key=lambda line: (line["scene"], line["technique"]))
+        table = with_those_of_before(table, arguments.out / "parts.csv")
     with (arguments.out / "parts.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
         writer.writeheader()

@@ -112,6 +112,16 @@ class ErrorParts(unittest.TestCase):
         self.assertEqual([table[name]["status"] for name in ("whole", "part", "failed")],
                          ["done", "7 of 8 runs are there", "out of memory"])
 
+    def test_what_was_whole_before_stays_where_it_is_there_in_part(self):
+        self.add("whole", lambda count: grey(8, 6, 1.0), lambda count: grey(16, 12, 1.0))
+        self.add("other", lambda count: grey(8, 6, 1.0), lambda count: grey(16, 12, 1.0))
+        self.parts()
+        self.rows.pop()
+        self.rows[0]["version"] = "2"
+        table = self.parts("--keep")
+        self.assertEqual([table[name]["status"] for name in ("whole", "other")], ["done", "done"])
+        self.assertEqual([table[name]["version"] for name in ("whole", "other")], ["2", "1"])
+
 
 if __name__ == "__main__":
     unittest.main()
