@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Speed against error over all techniques and scenes, against a light tracer on the same processor.
 
-    speed_error.py [--results results/all_techniques] [--in-turn results/all_techniques/in_turn.csv]
+    speed_error.py [--results results/all_techniques] [--in-turn results/all_techniques/in_turn.csv] [--elsewhere results/all_techniques/in_turn_xeon.csv]
 
 Reads runs.csv (all_techniques.toml, by table.py --csv), light_tracer.csv (light_tracer.py) and, where it is there, best_mixtures.csv
 (best_mixtures.toml; its runs are called "best mixture") in that folder, all of one machine (another
@@ -205,11 +205,11 @@ GOAL_SCENES = ("pool", "flat-water", "ring", "glass-sphere", "cornell-bunny", "g
 GOALS = ["by", "status", "of", "scenes", "missing", "above 3", "slower", "least", "median", "largest", "median least", "median most"]
 
 
-def goals(answered: list[dict], in_turn: list[dict]) -> list[list]:
+def goals(answered: list[dict], in_turn: list[dict], by_turn: str = "in turn") -> list[list]:
     """Rows of GOALS, of those of answers and of in_turn.csv; none of what has none of the scenes."""
     turn = {pathlib.PurePath(row["scene"]).stem: number(row, "factor") for row in in_turn if row["status"] == "done" and row["technique"] == DEFAULT}
     rows = []
-    for by, factors in (("study", {row["scene"]: row["factor"] for row in answered}), ("in turn", turn)):
+    for by, factors in (("study", {row["scene"]: row["factor"] for row in answered}), (by_turn, turn)):
         values = sorted(factors[scene] for scene in GOAL_SCENES if factors.get(scene))
         missing = [scene for scene in GOAL_SCENES if not factors.get(scene)]
         if values:
@@ -357,6 +357,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results/all_techniques")
     parser.add_argument("--in-turn", type=pathlib.Path, default=ROOT / "results/all_techniques/in_turn.csv", help="times of the default and the light tracer at another hour")
+    parser.add_argument("--elsewhere", type=pathlib.Path, default=ROOT / "results/all_techniques/in_turn_xeon.csv", help="the same on another processor, for the goals alone")
     parser.add_argument("--tables", action="store_true", help="draws nothing")
     arguments = parser.parse_args()
     folder = arguments.results
@@ -390,7 +391,9 @@ def main() -> int:
     for name, keys, table in (("answers.csv", ANSWERS, answered), ("photon_mapping.csv", MAPPING, mapping), ("one_second.csv", ONE_SECOND, one_second(equal, tracers, of_scenes, spreads))):
         write_table(name, list(keys), [[row[key] for key in keys] for row in table])
     write_table("summary.csv", SUMMARY, summary(answered, mapping, equal))
-    write_table("goals.csv", GOALS, goals(answered, in_turn))
+    elsewhere = rows_of(arguments.elsewhere) if arguments.elsewhere.is_file() else []
+    write(folder / "goals.csv", [*GOALS, *OF_THE_RUNS], [*(row + of_the_runs(runs) for row in goals(answered, in_turn)),
+                                                         *(row + of_the_runs(elsewhere) for row in goals([], elsewhere, "in turn, another processor"))])
     write_table("uncertainty.csv", UNCERTAINTY, uncertainty(spreads))
     write_table("costs.csv", ["technique", "as_published", "status", "scenes", "ns a photon", "least ns a photon", "most ns a photon", "ms at none", "bytes a photon", "MiB at none",
                               "most not formed, %", "most not formed, W", "on"], costs(runs))
