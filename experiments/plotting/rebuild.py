@@ -102,6 +102,7 @@ PRINTED = ("umenhoffer2008_grazing", "umenhoffer2008_merge", "umenhoffer2008_rea
 # Whose tables say where the eye's rays go; other files of all of runs.csv are without that.
 OF_THE_VIEW = ("krueger2006_refraction",)
 
+INTERRUPTED = "kaustik: Interrupted;"  # how a study ends that was stopped; the same command goes on
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
          "refine.finest": 64, "refine.start": 16, "refine.check": 32, "reconstruct.map_size": 128, "around.cubes.size": 64}
 
@@ -284,11 +285,15 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             forget_stale(out / study, tree)
         marker = out / f"{study}{'-' + shard.replace('/', '-of-') if shard else ''}.since.json"
         begin = begin_of(marker, tree)
+        is_interrupted = False
         for part in parts:
             try:
                 call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
             except Failure as failure:
                 failures.append(f"{study}: {failure}")  # whose rows say why; the others count
+                is_interrupted = INTERRUPTED in str(failure)
+            if is_interrupted:
+                break
         if not tree.has_built(kaustik):
             print(f"{study}: '{kaustik}' is of another tree; its rows have no keys of sources", flush=True)
         elif Tree().fingerprint() != tree.fingerprint():
@@ -296,6 +301,8 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
         elif (out / study).is_dir():
             note_sources(out / study, tree, begin)
         marker.unlink(missing_ok=True)
+        if is_interrupted:  # the rows that there are would take the place of all
+            return failures
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:

@@ -4,6 +4,7 @@
 import contextlib
 import csv
 import io
+import json
 import os
 import pathlib
 import shutil
@@ -160,6 +161,18 @@ class Whole(unittest.TestCase):
         os.utime(self.root / "build/kaustik")
         self.rebuild(anew=True)
         self.assertEqual(self.judged(), [2, 0, 0])
+
+    def test_that_is_interrupted_takes_no_rows_place(self):
+        self.rebuild()
+        before = (self.root / "results/refined/runs.csv").read_text()
+        stopped = KAUSTIK.replace('("pool", "ring")', '("pool",)') + 'sys.exit("kaustik: Interrupted; 1 of 2 runs are finished.")\n'
+        (self.root / "build/kaustik").write_text(stopped)
+        shutil.rmtree(self.root / "out")
+        failures = rebuild.rebuild(self.root / "build/kaustik", self.root / "out", None, False, [], ["refined", "lamps"], [])
+        self.assertEqual(len(failures), 1)  # nothing else is begun
+        self.assertIn("Interrupted", failures[0])
+        self.assertEqual((self.root / "results/refined/runs.csv").read_text(), before)
+        self.assertEqual(len(json.loads((self.root / "out/refined" / rebuild.SOURCES).read_text())), 1)
 
     def test_runs_that_were_there_before_have_no_key(self):
         out = self.root / "out/refined"
