@@ -172,7 +172,7 @@ class Whole(unittest.TestCase):
         self.assertEqual(len(failures), 1)  # nothing else is begun
         self.assertIn("Interrupted", failures[0])
         self.assertEqual((self.root / "results/refined/runs.csv").read_text(), before)
-        self.assertEqual(len(json.loads((self.root / "out/refined" / rebuild.SOURCES).read_text())), 1)
+        self.assertEqual(len(json.loads((self.root / "out/refined" / sources.SOURCES).read_text())), 1)
 
     def test_runs_that_were_there_before_have_no_key(self):
         out = self.root / "out/refined"
