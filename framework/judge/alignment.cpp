@@ -29,10 +29,6 @@ constexpr double kMaxDifferenceBehindGlass = 0.35;
 // Less than this share of the direct light that is expected is none.
 constexpr double kMinDirectShare = 0.1;
 
-// Four pixels along an axis make one that lies between; columns and theirs are moved to either
-// side.
-constexpr int kInterpolationReach = 2;
-
 // Has the columns moved by half of what is not a whole pixel, where pixels are as large.
 void shareShift(Comparison& comparison) {
     const Registration& registration = comparison.registration;
