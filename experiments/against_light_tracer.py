@@ -9,7 +9,7 @@ For each scene (those that are shipped and the room of water, or those that are 
 of an empty cache. The time of ours is of all passes of the caustic, as in table.py; the light tracer's a photon is the difference of its two
 runs, and its error falls as one over its photons, from the run with many. Both errors are against the same reference and net of its noise. SMAPE
 falls as its two runs say. Writes a row a scene: medians over the rounds, and the least and the largest factor. A row that is in FILE already is
-not run again. Times need an idle machine; what other processes took meanwhile is said in other_processors, the most of any run.
+not run again; rows of another processor are not mixed with these. Times need an idle machine; what other processes took meanwhile is said in other_processors, the most of any run.
 """
 
 import argparse
@@ -96,7 +96,11 @@ def main() -> None:
     done = set()
     if options.out.exists():
         with options.out.open(newline="") as stream:
-            done = {(row["scene"], row["technique"]) for row in csv.DictReader(stream)}
+            rows = list(csv.DictReader(stream))
+        done = {(row["scene"], row["technique"]) for row in rows}
+        here = light_tracer.processor(options.threads)
+        if others := {row["device"] for row in rows if row["device"] and not row["device"].endswith(here)}:
+            sys.exit(f"against_light_tracer: '{options.out}' has rows of {' and '.join(sorted(others))}, and this is {here}; write another file")
     options.out.parent.mkdir(parents=True, exist_ok=True)
     with options.out.open("a", newline="") as stream:
         writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
