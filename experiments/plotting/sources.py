@@ -6,7 +6,7 @@
     sources.py REPORT.json --list prints the files
 
 The key of a run is a hash of the files that it was made by: of each stage the node that it chose (all of a stage's where the choice is `auto`),
-what these include, the shaders that they name and what those include; the framework, but for the programs around it; and the scene's
+what these include, the shaders that they name and what those include; the framework, but for the programs around it and the judge (LEFT_OUT); and the scene's
 file, with what that extends and the pictures next to it. Its settings are in the study's own hash. A header brings the source file of its name.
 
 rebuild.py notes the key of each run as soon as it is made (SOURCES in a study's folder), and each row of results/ has its run's. Reports, which say
@@ -31,6 +31,8 @@ SOURCES = "sources.json"  # in a study's folder of runs: the key of each run's s
 RECIPES = "recipes.json"  # in results/: technique and nodes of runs that have a key
 # What makes, times and judges a frame; the rest of the framework shows, reads files and runs studies.
 FRAMEWORK = ("audit", "core", "gl", "graph", "image", "measure", "params", "pipeline", "reference", "render", "report", "run", "scene", "transport")
+# Named by the framework, but about pictures of other programs: no run's frame, time or error is made by it.
+LEFT_OUT = ("framework/judge",)
 SHADER = re.compile(r'"([\w/]+\.(?:comp|frag|vert|geom|glsl))"')
 INCLUDE = re.compile(r'#include "([\w/.]+)"')
 COMPILED = (".cpp", ".h", ".inc")
@@ -69,7 +71,8 @@ class Tree:
         files = shaders + [self.root / name for name in included] + [self.root / "shaders" / name for name in included]
         if file.suffix == ".h":
             files.append(file.with_suffix(".cpp"))
-        return frozenset(one for one in files if one.is_file())
+        left_out = [self.root / name for name in LEFT_OUT]
+        return frozenset(one for one in files if one.is_file() and not any(one.is_relative_to(folder) for folder in left_out))
 
     def closure(self, waiting: set[Path]) -> set[Path]:
         """These files and all that they need."""
