@@ -22,6 +22,8 @@ from sources import Present, Tree, note_recipes, recipes_of  # noqa: E402
 FILES = {
     "framework/pipeline/frame.cpp": "int frame;",
     "framework/gui/window.cpp": "int window;",
+    "framework/run/work.cpp": '#include "framework/judge/judge.h"',
+    "framework/judge/judge.h": "int judge();",
     "shaders/framework/close.comp": "void main() {}",
     "techniques/trace/march.cpp": '#include "techniques/tracing/steps.h"\ncompute("trace/march.comp");',
     "techniques/trace/lines.cpp": 'compute("trace/lines.comp");',
@@ -38,7 +40,7 @@ FILES = {
     "experiments/scenes/ring.toml": "name = 'ring'",
 }
 REPORT = {"technique": "planar", "scene": {"name": "pool"}, "parameters": {"trace": "march", "layers": "auto", "trace.epsilon": "0.1"}}
-OTHERS = {"framework/gui/window.cpp", "techniques/trace/lines.cpp", "shaders/trace/lines.comp", "experiments/scenes/ring.toml"}
+OTHERS = {"framework/gui/window.cpp", "framework/judge/judge.h", "techniques/trace/lines.cpp", "shaders/trace/lines.comp", "experiments/scenes/ring.toml"}
 
 
 class Sources(unittest.TestCase):
