@@ -217,11 +217,10 @@ GLuint Buffer::texels(graph::Format format) const {
     return view.id();
 }
 
-void Buffer::readBytes(void* destination) const {
+void Buffer::readBytes(void* destination, std::size_t byteCount) const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    if (bytes_ > 0) {
-        glGetNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(bytes_), destination);
-    }
+    if (byteCount > 0)
+        glGetNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(byteCount), destination);
 }
 
 FramebufferObject makeFramebuffer() {

@@ -2,6 +2,7 @@
 // OpenGL objects that delete themselves; moved, never copied. Direct state access throughout.
 #pragma once
 
+#include <algorithm>
 #include <epoxy/gl.h>
 
 #include <cstddef>
@@ -115,13 +116,18 @@ class Buffer {
     // Waits for the device.
     template <class T>
     [[nodiscard]] std::vector<T> read() const {
-        std::vector<T> values(bytes_ / sizeof(T));
-        readBytes(values.data());
+        return readFirst<T>(bytes_ / sizeof(T));
+    }
+    // So many, from its begin.
+    template <class T>
+    [[nodiscard]] std::vector<T> readFirst(std::size_t count) const {
+        std::vector<T> values(std::min(count, bytes_ / sizeof(T)));
+        readBytes(values.data(), values.size() * sizeof(T));
         return values;
     }
 
   private:
-    void readBytes(void* destination) const;
+    void readBytes(void* destination, std::size_t byteCount) const;
     Object<detail::deleteBuffer> object_;
     std::size_t bytes_ = 0;
     mutable std::map<graph::Format, Object<detail::deleteTexture>> texels_;  // made when asked for

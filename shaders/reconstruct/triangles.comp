@@ -3,27 +3,15 @@
 // part of it. One thread a patch of one kind (triangles_patch_made.glsl); those that cover many pixels
 // go to a list of their own, as long as there is room.
 #include "include/photons/ledger_of_group.glsl"
-#include "reconstruct/triangles_patch_made.glsl"
+#include "reconstruct/triangles_patch_item.glsl"
 #include "reconstruct/triangles_cover.glsl"
 #ifdef LIGHT_SPREAD
 #include "reconstruct/triangles_spread.glsl"
 #endif
 #include "reconstruct/triangles_wide.glsl"
-// What is joined has the width that it has, and OpenGL grants a program no more than eight blocks.
-#ifndef JOINED_PATCHES
-#include "include/photons/clamped.glsl"
-#endif
 
 uniform int wideCapacity;
 uniform int listCapacity;
-
-#if defined(JOINED_PATCHES)
-const uint kKind = kPatchesJoined;
-#elif defined(CREASE_PATCHES)
-const uint kKind = kPatchesAtCreases;
-#else
-const uint kKind = kPatchesOfBeams;
-#endif
 
 // Pixels of the rectangles around a patch, or each of its copies, for one thread.
 const int kMaxPixelsPerThread = 100;
@@ -110,20 +98,9 @@ void threadMain() {
 // As findPatch().
 float findItem(uint item, out Patch whole, out Found found) {
     found = nothingFound();
-    whole = patchOf(item);
-    ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
-#ifndef JOINED_PATCHES
-    // What neighbours share out is covered in each of their batches, and counts in the photon's own.
-    if (whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
-        countClamped(0u, whole.narrowing, whole.flux);
-#endif
-    uint material = uint(texelFetch(hitSurface, photon, 0).w);
-    if (isOpen(material - 1u) &&
-        !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {
-        ledgerAdd(kAccountHidden, whole.flux);
-        return 0.0;
-    }
+    if (!isPatchSeen(item, whole)) return 0.0;
 #ifdef LIGHT_SPREAD
+    ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
     if (copiesOfPatch(whole, photon).places > 1) {
         uint number = atomicAdd(copiedPatches[kKind].count, 1u);
         patchList[copiedPatchPlace(kKind, number, uint(listCapacity))] = item;

@@ -5,6 +5,7 @@
 #include "include/maps/flux_sum.glsl"
 #include "include/thread.glsl"
 #include "include/views/seen_receiver.glsl"
+#include "reconstruct/add_words.glsl"
 #include "reconstruct/triangles_pixel_blocks.glsl"
 
 // floor(sum part / 65536), low and high word; `part` from 0 to 65536.
@@ -18,18 +19,6 @@ uvec2 partOfSum(uvec2 sum, uint part) {
     umulExtended(sum.y, part, highHigh, highLow);
     uint middle = uaddCarry(lowHigh, highLow, carry);
     return uvec2(lowLow >> 16u | middle << 16u, middle >> 16u | (highHigh + carry) << 16u);
-}
-
-// No atomic: all others have added what they have.
-void addWords(ivec3 word, uvec2 sum) {
-    uint before = imageLoad(fluxSums, word).x;
-    uint carry;
-    uint low = uaddCarry(before, sum.x, carry);
-    imageStore(fluxSums, word, uvec4(low));
-    uint high = sum.y + carry;
-    if (high == 0u) return;
-    ivec3 above = word + ivec3(0, 0, 1);
-    imageStore(fluxSums, above, uvec4(imageLoad(fluxSums, above).x + high));
 }
 
 void main() {

@@ -11,6 +11,8 @@ struct WidePatch {
 };
 const uint kWideJoined = 1u;
 const uint kWideFromBehind = 2u;
+const uint kWideAlone = 4u;
+const uint kWideNone = 8u;  // nothing is to be covered
 
 layout(std430) buffer WidePatches {
     WidePatch widePatchList[];
@@ -31,7 +33,8 @@ WidePatch packedPatch(Patch whole) {
     made.normal = vec4(whole.side.normal, whole.first);
     made.direction = vec4(whole.side.direction, whole.tolerance);
     uint bits = (whole.isJoined ? kWideJoined : 0u) |
-                (whole.side.isFromBehind ? kWideFromBehind : 0u);
+                (whole.side.isFromBehind ? kWideFromBehind : 0u) |
+                (whole.isAlone ? kWideAlone : 0u);
     made.flux = vec4(whole.flux, float(bits));
     return made;
 }

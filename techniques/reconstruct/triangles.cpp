@@ -17,12 +17,20 @@
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/reconstruct/edge_samples.h"
+#include "techniques/reconstruct/patches.h"
 #include "techniques/reconstruct/triangles.h"
 #include "techniques/reconstruct/triangles_joins.h"
 #include "techniques/reconstruct/triangles_pixel_blocks.h"
 #include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
 #include "techniques/thread_lists/thread_list.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "techniques/reconstruct/processor_triangles.h"
+#else
+namespace kaustik {
+struct ProcessorPixels {};
+}  // namespace kaustik
+#endif
 
 namespace kaustik {
 namespace {
@@ -45,10 +53,6 @@ constexpr std::size_t kPatchCounts = kWidePatches + kWideKinds;
 enum Listed : int { none, patches, copies, widePatches };
 constexpr std::size_t kPatchCountWords =
     kPatchCounts * sizeof(ThreadListHeader) / sizeof(std::uint32_t);
-// As triangles_wide.glsl has it.
-struct WidePatch {
-    glm::vec4 corners[4], normal, direction, flux;
-};
 // Wide patches that are kept; more are covered by one thread each.
 constexpr std::size_t kMaxWidePatches = 1u << 18u;
 struct VertexShares {
@@ -63,6 +67,22 @@ constexpr int kMaxMerges = 4;
 // middle has nearly always all of it before it; what little another sees then is shared among the
 // rest.
 constexpr float kMaxWidthOnCube = 1.2f;
+
+// Null where the device covers the store's pixels: what a light's size spreads is laid many times,
+// and goes there.
+std::shared_ptr<ProcessorPixels> processorOf(FrameBuilder& frame, const TrianglesParams& params,
+                                             const Photons& photons, bool hasBlocks) {
+#ifdef KAUSTIK_HAS_EMBREE
+    const bool isAsked = params.cover == CoverBy::processor ||
+                         (params.cover == CoverBy::automatic && frame.inputs().isOnProcessor);
+    if (isAsked && hasBlocks && !photons.hasLightSpread() && !frame.view().isOrthographic)
+        return processorPixels(frame, true);
+#else
+    static_cast<void>(frame), static_cast<void>(params), static_cast<void>(photons);
+    static_cast<void>(hasBlocks);
+#endif
+    return nullptr;
+}
 
 Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometry& geometry,
                const Hits& hits, const Store& store, const FluxMap& before) {
@@ -87,18 +107,23 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
         TriangleJoins joins;
         graph::Buffer<VertexShares> shares;
         graph::Buffer<std::uint32_t> patches;  // counts, and a list
-        graph::Buffer<WidePatch> wide;
+        graph::Buffer<PatchData> wide;
         graph::Buffer<PatchBlock> blocks;  // where any are merged
         graph::Buffer<transport::Clamped> clamped;
     };
     const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
     // A light's map is read between its texels, and how light goes to the eye is each pixel's own.
     const bool hasBlocks = store.isEyeView() && !isGlossy;
-    const std::size_t wideKinds = hasBlocks ? kWideKinds : 1;
+    const std::shared_ptr<ProcessorPixels> processor =
+        processorOf(frame, params, hits.incoming, hasBlocks);
+    // The processor tells the kinds of wide ones apart by itself.
+    const std::size_t wideKinds = hasBlocks && !processor ? kWideKinds : 1;
     const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches) / wideKinds;
-    const std::string reason = hits.incoming.cells.width > 0
-                                   ? "what neighbours bring is spread between them"
-                                   : "no photon has neighbours: each is covered by its own beam";
+    const std::string reason =
+        std::string(hits.incoming.cells.width > 0
+                        ? "what neighbours bring is spread between them"
+                        : "no photon has neighbours: each is covered by its own beam") +
+        (processor ? "; the processor finds over which pixels" : "");
     const Data& covered = frame.pass<Data>(
         "reconstruct.triangles",
         isGlossy ? reason + ", and, since some receivers are glossy, how it goes to the eye"
@@ -137,8 +162,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
             }
             create(data.clamped, "ClampedWidths", "clamped", 1);
         },
-        [params, sets, store, wideCapacity, hasBlocks, list = hits.incoming](
-            const Data& data, gl::PassContext& context) {
+        [params, sets, store, wideCapacity, hasBlocks, processor, edges, list = hits.incoming,
+         &inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
             if (!context.isRepeated()) context.buffer(data.clamped).clear();
             const auto shader = [&](const char* name) {
@@ -188,6 +213,28 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                 }
             };
             countGroups(Listed::patches);
+#ifdef KAUSTIK_HAS_EMBREE
+            if (processor) {
+                if (data.stored.isFirst && !context.isRepeated() && !context.isListing()) {
+                    clearPixels(*processor, inputs.view, store, edges,
+                                data.stored.map.pixelBlocks, context);
+                }
+                const auto make = [&](std::size_t kind, int firstPlace) {
+                    gl::Command command = shaderOfPhotons("reconstruct/triangles_made.comp");
+                    if (kind == joined) command.define("JOINED_PATCHES");
+                    if (kind == atCreases) command.define("CREASE_PATCHES");
+                    command.set("placeCount", static_cast<int>(wideCapacity))
+                        .set("firstPlace", firstPlace)
+                        .set("listCapacity", listCapacity);
+                    dispatchOverPatches(std::move(command), kind);
+                };
+                coverOnProcessor(*processor,
+                                 {data.patches, kPatchKinds, data.wide, wideCapacity, make},
+                                 params.shading, inputs.ledgerQuantumWatts, data.stored.ledger,
+                                 context);
+                return;
+            }
+#endif
             coverPatches(false);
             if (list.hasLightSpread()) {
                 countGroups(Listed::copies);

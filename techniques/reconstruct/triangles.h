@@ -15,11 +15,23 @@ enum class TriangleShading : int { smooth, flat, vertices };
 enum class Unjoined : int { beams, discard };
 enum class LightSize : int { points, widened };
 enum class Coverage : int { middle, samples };
+enum class CoverBy : int { automatic, device, processor };
 
 inline std::string whyCoverageIsNotSampled(const FrameFacts& facts) {
     return facts.settings.get<ReconstructParams>(ReconstructStage::name).space == StoreSpace::screen
                ? ""
                : "light is not stored on the screen";
+}
+
+// What the processor covers is of the eye's pixels alone, and matte.
+inline std::string whyNotCoveredByProcessor(const FrameFacts& facts) {
+#ifdef KAUSTIK_HAS_EMBREE
+    if (facts.needs != nullptr && facts.needs->glossyReceivers) return "some receivers are glossy";
+    return whyCoverageIsNotSampled(facts);
+#else
+    static_cast<void>(facts);
+    return "this program is built without Embree";
+#endif
 }
 
 // Photons that are stored by cell keep nothing of how their lights spread them.
@@ -37,6 +49,7 @@ struct TrianglesParams {
     float merge = 0.0f;
     LightSize lightSize = LightSize::points;
     Coverage coverage = Coverage::middle;
+    CoverBy cover = CoverBy::automatic;
     template <class R>
     void reflect(R& r) {
         const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };
@@ -82,6 +95,11 @@ struct TrianglesParams {
                  "middle; samples: those at four places in it, by exact rays of the eye",
                  {"middle", "samples"})
             .when(&whyCoverageIsNotSampled);
+        r.choice(cover, "cover",
+                 "Who finds what is covered of each of the eye's pixels: the device, or the "
+                 "processor on all cores; auto: the processor where the device renders on it",
+                 {"auto", "device", "processor"})
+            .when(&whyNotCoveredByProcessor);
     }
 };
 

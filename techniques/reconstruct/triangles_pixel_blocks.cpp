@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/reconstruct/triangles_pixel_blocks.h"
 
+#include <memory>
 #include <string>
+
+#include "framework/gl/executor.h"
+#include "techniques/reconstruct/patches.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "techniques/reconstruct/processor_triangles.h"
+#endif
 
 namespace kaustik {
 
-// As the shaders have it.
-struct PixelBlock {
-    glm::vec4 receiver;
-    std::uint32_t sums[6], unused[2];
-};
-
 namespace {
 
-constexpr int kBlockSide = 4;  // px
-
 int pixelBlockCount(const Views& views) {
-    const auto along = [](int pixels) { return (pixels + kBlockSide - 1) / kBlockSide; };
+    const auto along = [](int pixels) { return (pixels + kPixelBlockSide - 1) / kPixelBlockSide; };
     return along(views->width()) * along(views->height());
 }
 
@@ -42,23 +41,61 @@ void makePixelBlocks(gl::Command command, const Store& store) {
 }
 
 CausticMap shareOutPixelBlocks(FrameBuilder& frame, CausticMap map) {
+    struct Data {
+        FluxMap map;
+        graph::Buffer<PixelBlock> blocks;
+        graph::Buffer<std::uint32_t> sums;  // where the processor has some
+    };
+#ifdef KAUSTIK_HAS_EMBREE
+    const std::shared_ptr<ProcessorPixels> processor = processorPixels(frame, false);
+#else
+    constexpr std::nullptr_t processor = nullptr;
+#endif
     for (FluxMap& own : map.maps) {
         if (!own.pixelBlocks.valid()) continue;
-        own = frame.pass<FluxMap>(
-            "reconstruct.pixel_blocks", "what squares of pixels have of wide beams goes to pixels",
-            [&](graph::PassSetup& setup, FluxMap& data) {
-                data = own;
-                setup.sample("receiver", own.on.receiver);
-                setup.storage("PixelBlocks", own.pixelBlocks);
-                data.pixelBlocks = {};
-                data.flux = setup.image("fluxSums", setup.write(own.flux));
-            },
-            [views = own.on.views](const FluxMap&, gl::PassContext& context) {
-                gl::Command command =
-                    context.compute("reconstruct/triangles_pixel_blocks_share.comp");
-                views->bindTo(command);
-                command.dispatchOver(pixelBlockCount(views), 64);
-            });
+        const auto pixels = static_cast<std::size_t>(own.on.views->width()) *
+                            static_cast<std::size_t>(own.on.views->height());
+        own = frame
+                  .pass<Data>(
+                      "reconstruct.pixel_blocks",
+                      "what squares of pixels have of wide beams goes to pixels",
+                      [&](graph::PassSetup& setup, Data& data) {
+                          data.map = own;
+                          data.map.pixelBlocks = {};
+                          setup.sample("receiver", own.on.receiver);
+                          data.blocks = setup.storage(
+                              "PixelBlocks", processor ? setup.write(own.pixelBlocks)
+                                                       : own.pixelBlocks);
+                          data.map.flux = setup.image("fluxSums", setup.write(own.flux));
+                          if (processor) {
+                              data.sums = setup.storage(
+                                  "PixelSums", setup.createBuffer<std::uint32_t>(
+                                                   "caustic.pixel_sums", 6 * pixels));
+                          }
+                      },
+                      [views = own.on.views, processor, pixels](const Data& data,
+                                                                gl::PassContext& context) {
+                          const auto shader = [&](const char* name) {
+                              gl::Command command = context.compute(name);
+                              views->bindTo(command);
+                              return command;
+                          };
+#ifdef KAUSTIK_HAS_EMBREE
+                          if (processor) {
+                              if (!context.isListing()) {
+                                  context.buffer(data.blocks).upload(processor->blocks);
+                                  context.buffer(data.sums).upload(processor->sums);
+                              }
+                              shader("reconstruct/triangles_pixel_sums.comp")
+                                  .dispatchOver(static_cast<int>(pixels), 64);
+                          }
+#else
+                          static_cast<void>(data), static_cast<void>(pixels);
+#endif
+                          shader("reconstruct/triangles_pixel_blocks_share.comp")
+                              .dispatchOver(pixelBlockCount(views), 64);
+                      })
+                  .map;
     }
     return map;
 }

@@ -17,7 +17,8 @@ namespace kaustik {
 // the store's pixels show.
 void makePixelBlocks(gl::Command command, const Store& store);
 
-// What squares have of each map goes to their pixels.
+// What squares have of each map goes to their pixels, and what the processor has put into pixels to
+// the map.
 [[nodiscard]] CausticMap shareOutPixelBlocks(FrameBuilder& frame, CausticMap map);
 
 }  // namespace kaustik

@@ -1,0 +1,664 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/reconstruct/processor_patches.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+
+namespace kaustik {
+
+using glm::ivec2;
+using glm::vec2;
+using glm::vec3;
+using namespace transport;
+
+namespace {
+
+constexpr float kMinHeight = 1.0f / 64.0f;
+constexpr float kMaxSlope = 8.0f;
+constexpr float kMinLitSlant = 0.05f;
+constexpr float kMaxStored = 100.0f;
+
+vec3 unpackUnitVector(const vec2& folded) {
+    vec3 n(folded, 1.0f - std::abs(folded.x) - std::abs(folded.y));
+    if (n.z < 0.0f) {
+        n = vec3((1.0f - std::abs(folded.y)) * (folded.x >= 0.0f ? 1.0f : -1.0f),
+                 (1.0f - std::abs(folded.x)) * (folded.y >= 0.0f ? 1.0f : -1.0f), n.z);
+    }
+    return glm::normalize(n);
+}
+
+// A place on the screen, px, as a whole number; where it is far from the picture, one next to it.
+float floorNear(float place, int size) {
+    const float bounded = std::clamp(place, -2.0f, static_cast<float>(size) + 2.0f);
+    return std::floor(bounded);
+}
+
+struct Triangle {
+    vec2 a, b, c;
+    vec3 slopes;
+    float area;
+};
+
+float slopeOf(const vec2& side) { return side.y != 0.0f ? side.x / side.y : 0.0f; }
+
+Triangle triangleOf(vec2 a, vec2 b, vec2 c) {
+    const vec2 ab = b - a, bc = c - b, ca = a - c;
+    const vec3 sides(glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca));
+    const float longest = std::max({sides.x, sides.y, sides.z});
+    float twice = ab.x * bc.y - ab.y * bc.x;
+    float sign = twice < 0.0f ? -1.0f : 1.0f;
+    if (std::abs(twice) < kMinHeight * std::sqrt(longest)) {
+        if (longest < kMinHeight * kMinHeight) {
+            const vec2 middle = (a + b + c) / 3.0f;
+            a = middle + kMinHeight * vec2(-1.0f, -0.5f);
+            b = middle + kMinHeight * vec2(1.0f, -0.5f);
+            c = middle + kMinHeight * vec2(0.0f, 1.0f);
+            sign = 1.0f;
+        } else {
+            const float one = 1.0f / std::sqrt(longest);
+            const float lift = (sign * kMinHeight - twice * one) * one;
+            if (longest == sides.x) {
+                c += lift * vec2(-ab.y, ab.x);
+            } else if (longest == sides.y) {
+                a += lift * vec2(-bc.y, bc.x);
+            } else {
+                b += lift * vec2(-ca.y, ca.x);
+            }
+        }
+        twice = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+    }
+    if (twice == 0.0f) twice = sign * kMinHeight * kMinHeight;
+    return {a, b, c, {slopeOf(b - a), slopeOf(c - b), slopeOf(a - c)}, 0.5f * twice};
+}
+
+float clampedIntegral(float x) {
+    const float inside = std::clamp(x, 0.0f, 1.0f);
+    return 0.5f * inside * inside + std::max(x - 1.0f, 0.0f);
+}
+
+float sideCoverage(const vec2& from, const vec2& to, float slope) {
+    const float low = std::clamp(from.y, 0.0f, 1.0f);
+    const float high = std::clamp(to.y, 0.0f, 1.0f);
+    const float rise = high - low;
+    if (rise == 0.0f) return 0.0f;
+    const float first = from.x + (low - from.y) * slope;
+    const float last = from.x + (high - from.y) * slope;
+    const float run = last - first;
+    const float mean = std::abs(run) < 1e-3f
+                           ? std::clamp(0.5f * (first + last), 0.0f, 1.0f)
+                           : (clampedIntegral(last) - clampedIntegral(first)) / run;
+    return rise * mean;
+}
+
+// Of the square with this lower left corner whose side is 1 over `scale`, as a share of it.
+float coverageOf(const Triangle& triangle, const vec2& corner, float scale) {
+    const vec2 a = scale * (triangle.a - corner);
+    const vec2 b = scale * (triangle.b - corner);
+    const vec2 c = scale * (triangle.c - corner);
+    const float sum = sideCoverage(a, b, triangle.slopes.x) +
+                      sideCoverage(b, c, triangle.slopes.y) + sideCoverage(c, a, triangle.slopes.z);
+    return std::max(triangle.area < 0.0f ? -sum : sum, 0.0f);
+}
+
+void addToSpan(vec2& span, vec2 bottom, vec2 top, float low, float high) {
+    if (bottom.y >= top.y) std::swap(bottom, top);
+    if (top.y < low || bottom.y > high) return;
+    const float rise = top.y - bottom.y;
+    const float run = top.x - bottom.x;
+    const float first = rise > 0.0f ? std::clamp((low - bottom.y) / rise, 0.0f, 1.0f) : 0.0f;
+    const float last = rise > 0.0f ? std::clamp((high - bottom.y) / rise, 0.0f, 1.0f) : 1.0f;
+    const float from = bottom.x + first * run, to = bottom.x + last * run;
+    span = {std::min(span.x, std::min(from, to)), std::max(span.y, std::max(from, to))};
+}
+
+struct Side {
+    vec3 normal, direction;
+    bool isFromBehind;
+};
+
+struct Patch {
+    vec3 corners[4];
+    float densities[4];
+    float first;
+    Side side;
+    vec3 flux;
+    float tolerance;
+    bool isJoined, isAlone;
+};
+
+Patch unpacked(const PatchData& data) {
+    Patch made;
+    for (int i = 0; i < 4; ++i) {
+        made.corners[i] = vec3(data.corners[i]);
+        made.densities[i] = data.corners[i].w;
+    }
+    const auto bits = static_cast<std::uint32_t>(data.flux.w);
+    made.first = data.normal.w;
+    made.side = {vec3(data.normal), vec3(data.direction), (bits & kPatchIsFromBehind) != 0};
+    made.flux = vec3(data.flux);
+    made.tolerance = data.direction.w;
+    made.isJoined = (bits & kPatchIsJoined) != 0;
+    made.isAlone = (bits & kPatchIsAlone) != 0;
+    return made;
+}
+
+struct PatchTriangle {
+    Triangle onScreen;
+    vec3 weightsX, weightsY, weightsBegin, changes;
+    vec3 plane, middle;
+    float perArea;
+    vec3 densities;
+    bool isShaded;
+    [[nodiscard]] vec3 weightsAt(const vec2& place) const {
+        return weightsX * place.x + weightsY * place.y + weightsBegin;
+    }
+    [[nodiscard]] bool contains(const vec2& place) const {
+        const vec3 weights = weightsAt(place);
+        return weights.x >= 0.0f && weights.y >= 0.0f && weights.z >= 0.0f;
+    }
+    // What it has of a square, 1/m².
+    [[nodiscard]] float partOf(const vec2& corner, float square) const {
+        vec3 weights = weightsAt(corner + 0.5f * square);
+        const vec3 change = square * changes;
+        if (weights.x <= -change.x || weights.y <= -change.y || weights.z <= -change.z) return 0.0f;
+        float covered = 1.0f;
+        if (weights.x < change.x || weights.y < change.y || weights.z < change.z) {
+            covered = coverageOf(onScreen, corner, 1.0f / square);
+            if (covered <= 0.0f) return 0.0f;
+            weights = glm::max(weights, 0.0f);
+            weights /= weights.x + weights.y + weights.z;
+        }
+        return covered * perArea * glm::dot(weights, densities);
+    }
+};
+
+struct PatchOnScreen {
+    PatchTriangle triangles[2];
+    vec2 base;       // pixel that the triangles' corners count from
+    ivec2 low, high;  // the rectangle of pixels that may be covered; none where it is empty
+    bool isWhole;
+};
+
+// What a pixel sees where a plane of a patch's surface would be, m² of the plane.
+struct PlanePixel {
+    float lit = 0.0f, occluded = 0.0f, inView = 0.0f, stored = 0.0f;
+};
+
+struct PatchParts {
+    float on = 0.0f, occluded = 0.0f, inView = 0.0f;
+};
+
+// Where a patch has put a part of it: a pixel, or ~ a square of pixels.
+struct KeptPlace {
+    std::int32_t place;
+    float stored;
+};
+
+// Of one thread.
+class Coverer {
+  public:
+    Coverer(const SeenPixels& pixels, TriangleShading shading, const PatchSums& sums)
+        : pixels_(pixels), shading_(shading), sums_(sums) {}
+    void cover(const Patch& whole);
+    [[nodiscard]] const LedgerSums& ledger() const { return ledger_; }
+
+  private:
+    [[nodiscard]] PatchTriangle patchTriangle(const Patch& whole, const int (&corners)[3],
+                                              const vec2 (&places)[4], float part,
+                                              const vec2& base) const;
+    [[nodiscard]] PatchOnScreen onScreen(const Patch& whole) const;
+    [[nodiscard]] ivec2 spanOf(const PatchOnScreen& onto, float bottom, float top) const;
+    // `place`: on the screen, px.
+    void addSeen(PlanePixel& pixel, const vec2& place, const SeenPixels::Receiver& seen,
+                 const PatchTriangle& of, const Patch& whole, bool isAway, float share,
+                 float storedArea) const;
+    // Where `at` is null that is looked at which lies in the square's middle.
+    void addPlace(PlanePixel& sum, const PatchOnScreen& onto, const Patch& whole,
+                  const vec2& corner, float square, const vec2& inSquare,
+                  const SeenPixels::Receiver& seen, bool isAtEdge, float storedArea) const;
+    [[nodiscard]] PlanePixel partIn(const ivec2& pixel, const PatchOnScreen& onto,
+                                    const Patch& whole) const;
+    void addToPixels(const PatchOnScreen& onto, const Patch& whole);
+    void addToSquares(const PatchOnScreen& onto, const Patch& whole);
+    void keep(std::int32_t place, const PlanePixel& sum);
+    [[nodiscard]] PlanePixel seenOnPlane(const ivec2& pixel, const Patch& whole,
+                                         const vec3& middle) const;
+    void depositNear(const Patch& whole);
+    void deposit(std::int32_t place, const vec3& flux) const;
+    void book(std::uint32_t account, const vec3& flux);
+    void bookExcess(const Patch& whole, float share);
+
+    const SeenPixels& pixels_;
+    TriangleShading shading_;
+    PatchSums sums_;
+    LedgerSums ledger_{};
+    // Of the patch.
+    std::vector<KeptPlace> kept_;
+    PatchParts parts_;
+    float excess_ = 0.0f;
+};
+
+PatchTriangle Coverer::patchTriangle(const Patch& whole, const int (&corners)[3],
+                                     const vec2 (&places)[4], float part, const vec2& base) const {
+    const vec3 a = whole.corners[corners[0]], b = whole.corners[corners[1]],
+               c = whole.corners[corners[2]];
+    PatchTriangle made;
+    made.onScreen = triangleOf(places[corners[0]] - base, places[corners[1]] - base,
+                               places[corners[2]] - base);
+    const Triangle& at = made.onScreen;
+    const vec3 x(at.b.y - at.c.y, at.c.y - at.a.y, at.a.y - at.b.y);
+    const vec3 y(at.c.x - at.b.x, at.a.x - at.c.x, at.b.x - at.a.x);
+    const vec3 begin = -x * vec3(at.b.x, at.c.x, at.a.x) - y * vec3(at.b.y, at.c.y, at.a.y);
+    const float scale = 0.5f / at.area;
+    made.weightsX = scale * x;
+    made.weightsY = scale * y;
+    made.weightsBegin = scale * begin;
+    made.changes = 0.5f * (glm::abs(made.weightsX) + glm::abs(made.weightsY));
+    const vec3 area = glm::cross(b - a, c - a);
+    const float size = glm::length(area);
+    const vec3 edges = glm::abs(b - a) + glm::abs(c - a);
+    const bool isFlat = size > 1e-3f * glm::dot(edges, edges);
+    made.plane = isFlat ? area / size : whole.side.normal;
+    if (std::abs(glm::dot(made.plane, whole.side.normal)) < 0.5f) made.plane = whole.side.normal;
+    made.middle = (a + b + c) / 3.0f;
+    const vec3 middleRay = pixels_.ray(pixels_.pixelOf(made.middle));
+    const float covered =
+        std::abs(at.area) * pixels_.pixelArea(middleRay, -made.middle.z, made.plane);
+    made.perArea =
+        part / std::max(isFlat ? std::max(0.5f * size, 0.25f * covered) : covered, 1e-30f);
+    const vec3 densities(whole.densities[corners[0]], whole.densities[corners[1]],
+                         whole.densities[corners[2]]);
+    const float mean = (densities.x + densities.y + densities.z) / 3.0f;
+    const float minimum = std::min({densities.x, densities.y, densities.z});
+    const float maximum = std::max({densities.x, densities.y, densities.z});
+    const bool isSmooth = (shading_ == TriangleShading::smooth
+                               ? maximum <= 4.0f * minimum
+                               : shading_ == TriangleShading::vertices) &&
+                          mean > 0.0f;
+    made.densities = isSmooth ? densities / mean : vec3(1.0f);
+    made.isShaded = whole.isJoined && shading_ != TriangleShading::smooth;
+    return made;
+}
+
+PatchOnScreen Coverer::onScreen(const Patch& whole) const {
+    vec2 places[4];
+    for (int i = 0; i < 4; ++i)
+        places[i] = pixels_.pixelOf(whole.corners[i]);
+    const vec2 minimum =
+        glm::min(glm::min(places[0], places[1]), glm::min(places[2], places[3])) - 2.0f * kMinHeight;
+    const vec2 maximum =
+        glm::max(glm::max(places[0], places[1]), glm::max(places[2], places[3])) + 2.0f * kMinHeight;
+    PatchOnScreen made;
+    made.base = {std::floor(minimum.x), std::floor(minimum.y)};
+    const ivec2& size = pixels_.size();
+    const ivec2 begin(static_cast<int>(floorNear(minimum.x, size.x)),
+                      static_cast<int>(floorNear(minimum.y, size.y)));
+    const ivec2 end(static_cast<int>(floorNear(maximum.x, size.x)),
+                    static_cast<int>(floorNear(maximum.y, size.y)));
+    made.low = glm::max(begin, 0);
+    made.high = glm::min(end, size - 1);
+    made.isWhole = made.low == begin && made.high == end;
+    made.triangles[0] = patchTriangle(whole, {0, 1, 2}, places, whole.first, made.base);
+    made.triangles[1] = patchTriangle(whole, {0, 2, 3}, places, 1.0f - whole.first, made.base);
+    return made;
+}
+
+// The first and the last pixel between two heights that can be covered, before they are held to the
+// rectangle; none where x > y.
+ivec2 Coverer::spanOf(const PatchOnScreen& onto, float bottom, float top) const {
+    const float low = bottom - onto.base.y, high = top - onto.base.y;
+    vec2 span(1e9f, -1e9f);
+    for (const PatchTriangle& triangle : onto.triangles) {
+        const Triangle& at = triangle.onScreen;
+        addToSpan(span, at.a, at.b, low, high);
+        addToSpan(span, at.b, at.c, low, high);
+        addToSpan(span, at.c, at.a, low, high);
+    }
+    if (!(span.x <= span.y)) return {1, 0};
+    const int width = pixels_.size().x;
+    return {std::max(static_cast<int>(floorNear(span.x + onto.base.x, width)), onto.low.x),
+            std::min(static_cast<int>(floorNear(span.y + onto.base.x, width)), onto.high.x)};
+}
+
+bool seesLitSide(const vec3& position, const Side& side) {
+    const bool seesFront = glm::dot(side.normal, position) < 0.0f;
+    return seesFront == (glm::dot(side.normal, side.direction) < 0.0f);
+}
+
+float litShare(const vec3& seenNormal, const vec3& plane, bool isShaded, const Side& side) {
+    const float cosine =
+        glm::dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0f : -1.0f);
+    if (cosine <= 0.0f) return 0.0f;
+    if (isShaded) return 1.0f;
+    const float slant = std::abs(glm::dot(plane, side.direction));
+    const float least = std::max(kMinLitSlant - slant, 0.0f);
+    return (cosine + least) / (slant + least);
+}
+
+float boundedSlant(float slant, float minimum) {
+    return (slant < 0.0f ? -1.0f : 1.0f) * std::max(std::abs(slant), minimum);
+}
+
+void Coverer::addSeen(PlanePixel& pixel, const vec2& place, const SeenPixels::Receiver& seen,
+                      const PatchTriangle& of, const Patch& whole, bool isAway, float share,
+                      float storedArea) const {
+    enum Where { on, occluded, outside };
+    const vec3 ray = pixels_.ray(place);
+    const float facing = boundedSlant(glm::dot(of.plane, ray), 1e-4f);
+    const float depth = std::max(glm::dot(of.plane, of.middle) / facing, pixels_.nearMeters());
+    const float tolerance =
+        whole.tolerance + std::min(pixels_.depthMargin(ray, depth, of.plane), seen.margin);
+    const float seenDepth = std::abs(seen.depth);
+    constexpr float kSameSide = 1e-4f;
+    Where where = on;
+    if (seenDepth == 0.0f) {
+        where = outside;
+    } else if (seenDepth < depth - tolerance) {
+        where = occluded;
+    } else if (seen.depth < 0.0f || seenDepth > depth + tolerance ||
+               glm::dot(seen.normal, whole.side.normal) <= kSameSide) {
+        where = outside;
+    }
+    const float area = where == on ? seen.area : pixels_.pixelArea(ray, depth, of.plane);
+    vec3 normal = seen.normal;
+    if (where == outside && isAway && seesLitSide(ray, whole.side)) {
+        where = on;
+        normal = whole.side.normal;
+    }
+    pixel.inView += share * area;
+    if (where == occluded) pixel.occluded += share * area;
+    if (where != on) return;
+    const float lit = share * litShare(normal, of.plane, of.isShaded, whole.side);
+    (storedArea > 0.0f ? pixel.lit : pixel.occluded) += lit * area;
+    pixel.stored += lit * std::min(storedArea, kMaxStored * area);
+}
+
+void Coverer::addPlace(PlanePixel& sum, const PatchOnScreen& onto, const Patch& whole,
+                       const vec2& corner, float square, const vec2& place,
+                       const SeenPixels::Receiver& seen, bool isAtEdge, float storedArea) const {
+    const PatchTriangle& first = onto.triangles[0];
+    const PatchTriangle& second = onto.triangles[1];
+    const vec2 local = corner - onto.base;
+    const float ofFirst = first.partOf(local, square), ofSecond = second.partOf(local, square);
+    if (!(ofFirst + ofSecond > 0.0f)) return;
+    const vec2 looked = place - onto.base;
+    const bool isAway = isAtEdge && !first.contains(looked) && !second.contains(looked);
+    addSeen(sum, place, seen, ofFirst >= ofSecond ? first : second, whole, isAway,
+            (ofFirst + ofSecond) * square * square, storedArea);
+}
+
+PlanePixel Coverer::partIn(const ivec2& pixel, const PatchOnScreen& onto,
+                           const Patch& whole) const {
+    PlanePixel sum;
+    const vec2 corner(pixel);
+    const SeenPixels::Pixel& at = pixels_.at(pixel);
+    if (at.number == 0) {
+        addPlace(sum, onto, whole, corner, 1.0f, corner + 0.5f, at.middle, false, at.middle.area);
+        return sum;
+    }
+    for (int i = 0; i < kEdgeSamples; ++i) {
+        addPlace(sum, onto, whole, corner + 0.5f * vec2(i & 1, i >> 1), 0.5f,
+                 corner + edgePlace(i), pixels_.sample(at.number, i), true, at.middle.area);
+    }
+    return sum;
+}
+
+void Coverer::keep(std::int32_t place, const PlanePixel& sum) {
+    parts_.on += sum.lit;
+    parts_.occluded += sum.occluded;
+    parts_.inView += sum.inView;
+    excess_ += sum.stored - sum.lit;
+    if (sum.stored > 0.0f) kept_.push_back({place, sum.stored});
+}
+
+void Coverer::addToPixels(const PatchOnScreen& onto, const Patch& whole) {
+    for (int y = onto.low.y; y <= onto.high.y; ++y) {
+        const auto bottom = static_cast<float>(y);
+        const ivec2 span = spanOf(onto, bottom, bottom + 1.0f);
+        for (int x = span.x; x <= span.y; ++x) {
+            const ivec2 pixel(x, y);
+            keep(static_cast<std::int32_t>(pixels_.indexOf(pixel)), partIn(pixel, onto, whole));
+        }
+    }
+}
+
+void Coverer::addToSquares(const PatchOnScreen& onto, const Patch& whole) {
+    constexpr int kSide = kPixelBlockSide;
+    for (int row = onto.low.y / kSide; row <= onto.high.y / kSide; ++row) {
+        const auto bottom = static_cast<float>(kSide * row);
+        const ivec2 span = spanOf(onto, bottom, bottom + kSide);
+        if (span.x > span.y) continue;
+        for (int column = span.x / kSide; column <= span.y / kSide; ++column) {
+            const int index = row * pixels_.blocksOfRow() + column;
+            const SeenPixels::Block& block = pixels_.block(static_cast<std::size_t>(index));
+            const ivec2 corner = kSide * ivec2(column, row);
+            if (!block.several) {
+                PlanePixel sum;
+                addPlace(sum, onto, whole, vec2(corner), kSide, vec2(corner) + 0.5f * kSide,
+                         block.receiver, false, block.receiver.area);
+                keep(~index, sum);
+                continue;
+            }
+            const ivec2 low = glm::max(corner, onto.low);
+            const ivec2 high = glm::min(corner + kSide - 1, onto.high);
+            for (int y = low.y; y <= high.y; ++y) {
+                for (int x = low.x; x <= high.x; ++x) {
+                    const ivec2 pixel(x, y);
+                    keep(static_cast<std::int32_t>(pixels_.indexOf(pixel)),
+                         partIn(pixel, onto, whole));
+                }
+            }
+        }
+    }
+}
+
+void Coverer::deposit(std::int32_t place, const vec3& flux) const {
+    for (int channel = 0; channel < 3; ++channel) {
+        const float whole = std::floor(flux[channel] * sums_.unitsPerWatt + 0.5f);
+        if (!(whole > 0.0f)) continue;
+        std::uint64_t* sum = nullptr;
+        if (place >= 0) {
+            sum = &sums_.pixels[3 * static_cast<std::size_t>(place) +
+                                static_cast<std::size_t>(channel)];
+        } else {
+            sum = reinterpret_cast<std::uint64_t*>(
+                &sums_.blocks[static_cast<std::size_t>(~place)].sums[2 * channel]);
+        }
+        std::atomic_ref(*sum).fetch_add(static_cast<std::uint64_t>(whole),
+                                        std::memory_order_relaxed);
+    }
+}
+
+void Coverer::book(std::uint32_t account, const vec3& flux) {
+    const float watts = flux.r + flux.g + flux.b;
+    if (!std::isfinite(watts) || watts < 0.0f) {
+        ++ledger_[kAccountNotANumber].events;
+        return;
+    }
+    const float units = watts * sums_.unitsPerWatt;
+    if (units < 0.25f) return;  // nothing, or another batch's
+    ledger_[account].units += static_cast<std::uint64_t>(std::floor(units));
+    ++ledger_[account].events;
+}
+
+void Coverer::bookExcess(const Patch& whole, float share) {
+    if (share != 0.0f)
+        book(share > 0.0f ? kSumMapExcess : kSumMapDeficit, whole.flux * std::abs(share));
+}
+
+PlanePixel Coverer::seenOnPlane(const ivec2& pixel, const Patch& whole, const vec3& middle) const {
+    PatchTriangle plane;
+    plane.plane = whole.side.normal;
+    plane.middle = middle;
+    plane.isShaded = false;
+    PlanePixel made;
+    const SeenPixels::Pixel& at = pixels_.at(pixel);
+    const vec2 corner(pixel);
+    if (at.number == 0) {
+        addSeen(made, corner + 0.5f, at.middle, plane, whole, false, 1.0f, at.middle.area);
+        return made;
+    }
+    for (int i = 0; i < kEdgeSamples; ++i) {
+        addSeen(made, corner + edgePlace(i), pixels_.sample(at.number, i), plane, whole, false,
+                0.25f, at.middle.area);
+    }
+    return made;
+}
+
+void Coverer::depositNear(const Patch& whole) {
+    const vec3 middle =
+        0.25f * (whole.corners[0] + whole.corners[1] + whole.corners[2] + whole.corners[3]);
+    if (-middle.z <= pixels_.nearMeters()) return book(kAccountBehindEye, whole.flux);
+    const vec2 at = pixels_.pixelOf(middle);
+    const ivec2& size = pixels_.size();
+    const bool isInside = at.x >= 0.0f && at.y >= 0.0f && at.x < static_cast<float>(size.x) &&
+                          at.y < static_cast<float>(size.y);
+    if (!isInside) return book(kAccountOffScreen, whole.flux);
+    float nearness[9], stored[9];
+    float sum = 0.0f;
+    const ivec2 corner = ivec2(at) - 1;
+    for (int i = 0; i < 9; ++i) {
+        const ivec2 pixel = corner + ivec2(i % 3, i / 3);
+        nearness[i] = 0.0f;
+        if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y) continue;
+        const PlanePixel seen = seenOnPlane(pixel, whole, middle);
+        if (seen.lit <= 0.0f) continue;
+        nearness[i] = std::max(1.5f - glm::length(vec2(pixel) + 0.5f - at), 1e-3f);
+        stored[i] = seen.stored / seen.lit;
+        sum += nearness[i];
+    }
+    if (!(sum > 0.0f)) {
+        const bool seesFront = glm::dot(whole.side.normal, middle) < 0.0f;
+        return book(seesFront ? kAccountEdgeOn : kAccountOccludedSplat, whole.flux);
+    }
+    float excess = 0.0f;
+    for (int i = 0; i < 9; ++i) {
+        if (!(nearness[i] > 0.0f)) continue;
+        const float share = nearness[i] / sum;
+        deposit(static_cast<std::int32_t>(pixels_.indexOf(corner + ivec2(i % 3, i / 3))),
+                whole.flux * (stored[i] * share));
+        excess += (stored[i] - 1.0f) * share;
+    }
+    bookExcess(whole, excess);
+    book(whole.isJoined ? kSumTriangles : kSumBeams, whole.flux);
+}
+
+// A beam that covers no more pixels than this goes to each of them, not to squares.
+constexpr int kMaxPixelsOfNarrow = 100;
+
+void Coverer::cover(const Patch& whole) {
+    for (const vec3& corner : whole.corners) {
+        if (!(-corner.z > pixels_.nearMeters())) return book(kAccountBehindEye, whole.flux);
+    }
+    const PatchOnScreen onto = onScreen(whole);
+    kept_.clear();
+    parts_ = {};
+    excess_ = 0.0f;
+    const ivec2 size = glm::max(onto.high - onto.low + 1, 0);
+    if (whole.isAlone && size.x * size.y > kMaxPixelsOfNarrow) {
+        addToSquares(onto, whole);
+    } else if (size.x > 0) {
+        addToPixels(onto, whole);
+    }
+    const float found = parts_.on + parts_.occluded +
+                        (onto.isWhole ? 0.0f : std::max(1.0f - parts_.inView, 0.0f));
+    const float beyond = found > 0.0f ? std::max(0.5f - found, 0.0f) : 0.0f;
+    const float total = found + beyond;
+    if (!(total > 0.0f)) return depositNear(whole);
+    const vec3 flux = whole.flux / total;
+    const float outside = found - parts_.on - parts_.occluded;
+    if (parts_.on > 0.0f) book(whole.isJoined ? kSumTriangles : kSumBeams, flux * parts_.on);
+    if (parts_.occluded + beyond > 0.0f)
+        book(kAccountOccludedSplat, flux * (parts_.occluded + beyond));
+    if (!onto.isWhole && outside > 0.0f) book(kAccountOffScreen, flux * outside);
+    if (!(parts_.on > 0.0f)) return;
+    bookExcess(whole, excess_ / total);
+    for (const KeptPlace& place : kept_)
+        deposit(place.place, flux * place.stored);
+}
+
+}  // namespace
+
+float SeenPixels::depthMargin(const vec3& ray, float depth, const vec3& normal) const {
+    const float footprint = footprint_ * depth;
+    const float slope = (std::abs(normal.x) + std::abs(normal.y)) /
+                        std::max(std::abs(glm::dot(normal, ray)), 1e-4f);
+    return footprint * (1.0f + 0.5f * std::min(slope, kMaxSlope));
+}
+
+float SeenPixels::pixelArea(const vec3& ray, float depth, const vec3& normal) const {
+    const float side = footprint_ * depth;
+    return side * side / std::max(std::abs(glm::dot(normal, ray)), 1e-4f);
+}
+
+SeenPixels::Receiver SeenPixels::receiver(const vec2& place, float depth, float area,
+                                          const vec3& normal) const {
+    return {normal, depth, area, depthMargin(ray(place), std::abs(depth), normal)};
+}
+
+void SeenPixels::look(const render::RasterView& view, const Textures& textures,
+                      std::span<const PixelBlock> blocks) {
+    size_ = {view.width, view.height};
+    blocksOfRow_ = (size_.x + kPixelBlockSide - 1) / kPixelBlockSide;
+    halfExtent_ = vec2(view.halfExtent);
+    toRay_ = 2.0f * halfExtent_ / vec2(size_);
+    near_ = static_cast<float>(view.nearMeters);
+    footprint_ = static_cast<float>(view.footprintPerMeter());
+    pixels_.resize(textures.receiver.size());
+    std::uint32_t numbers = 0;
+    for (const glm::vec4& seen : textures.receiver)
+        numbers = std::max(numbers, textures.samples.empty() ? 0u : static_cast<std::uint32_t>(seen.z));
+    samples_.resize(static_cast<std::size_t>(numbers) * kEdgeSamples);
+    blocks_.resize(blocks.size());
+    tbb::parallel_for(0, size_.y, [&](int y) {
+        for (int x = 0; x < size_.x; ++x) {
+            const std::size_t index = indexOf({x, y});
+            const glm::vec4& seen = textures.receiver[index];
+            Pixel& pixel = pixels_[index];
+            const vec2 corner(x, y);
+            pixel.middle = receiver(corner + 0.5f, seen.x, seen.y, vec3(textures.surface[index]));
+            pixel.number = textures.samples.empty() ? 0u : static_cast<std::uint32_t>(seen.z);
+            for (std::size_t i = 0; pixel.number > 0 && i < kEdgeSamples; ++i) {
+                const std::size_t at = (pixel.number - 1) * kEdgeSamples + i;
+                const glm::vec4& sample = textures.samples[at];
+                samples_[at] = receiver(corner + edgePlace(static_cast<int>(i)), sample.x, sample.y,
+                                        unpackUnitVector({sample.z, sample.w}));
+            }
+        }
+    });
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const glm::vec4& seen = blocks[i].receiver;
+        const auto row = static_cast<std::size_t>(blocksOfRow_);
+        const vec2 middle = static_cast<float>(kPixelBlockSide) * (vec2(i % row, i / row) + 0.5f);
+        blocks_[i] = {receiver(middle, seen.x, seen.y, unpackUnitVector({seen.z, seen.w})),
+                      seen.y < 0.0f};
+    }
+}
+
+void coverPatches(std::span<const PatchData> patches, const SeenPixels& pixels,
+                  TriangleShading shading, const PatchSums& sums, LedgerSums& ledger) {
+    tbb::combinable<Coverer> coverers([&] { return Coverer(pixels, shading, sums); });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 64),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          Coverer& own = coverers.local();
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              const bool isNone =
+                                  (static_cast<std::uint32_t>(patches[i].flux.w) & kPatchIsNone) != 0;
+                              if (!isNone) own.cover(unpacked(patches[i]));
+                          }
+                      });
+    coverers.combine_each([&](const Coverer& own) {
+        for (std::size_t account = 0; account < ledger.size(); ++account) {
+            ledger[account].units += own.ledger()[account].units;
+            ledger[account].events += own.ledger()[account].events;
+        }
+    });
+}
+
+}  // namespace kaustik
