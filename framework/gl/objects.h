@@ -2,8 +2,8 @@
 // OpenGL objects that delete themselves; moved, never copied. Direct state access throughout.
 #pragma once
 
-#include <algorithm>
 #include <epoxy/gl.h>
+#include <algorithm>
 
 #include <cstddef>
 #include <glm/glm.hpp>

@@ -2,6 +2,7 @@
 // Handles of light that has arrived at receivers, and of the images that are made of it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,8 @@ struct FluxSets {
     [[nodiscard]] int perView() const { return isGlossy() ? 2 * flux() : flux(); }
 };
 
-struct PixelBlock;  // techniques/reconstruct/triangles_pixel_blocks.h
+struct PixelBlock;
+struct ProcessorPixels;  // techniques/reconstruct/triangles_pixel_blocks.h
 
 // Flux that has arrived, W a texel, on what some views see: sums that depend neither on the order
 // nor on the batches of what was added. Names in shaders: include/maps/flux_sum.glsl.
@@ -54,6 +56,8 @@ struct FluxMap {
     graph::Texture<FilteredTexel> filtered;
     // Flux that is in squares of pixels until all has come (ReconstructStage::Traits::close).
     graph::Buffer<PixelBlock> pixelBlocks;
+    // The same of what the processor has put into pixels; null where the device alone puts.
+    std::shared_ptr<ProcessorPixels> byProcessor;
     FluxSets sets;
     ReceiverView on;
     int light = -1;      // whose photons alone it holds; -1: all lights'

@@ -24,7 +24,8 @@ constexpr std::uint32_t kPatchIsNone = 8;  // it is booked already
 
 struct PixelBlock {
     glm::vec4 receiver;
-    std::uint32_t sums[6], unused[2];
+    std::uint64_t sums[3];  // which shaders have as low and high words
+    std::uint32_t unused[2];
 };
 constexpr int kPixelBlockSide = 4;  // px
 

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cmath>
 
-
 namespace kaustik {
 
 using glm::ivec2;
@@ -33,10 +32,21 @@ vec3 unpackUnitVector(const vec2& folded) {
     return glm::normalize(n);
 }
 
+// Whole units; none of what is negative or not a number. (Rounding down is a call of a function
+// where a processor need not have more than SSE2, and a conversion is none.)
+std::uint64_t wholeOf(float units) {
+    constexpr float kMost = 9e18f;
+    return units > 0.0f
+               ? static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min(units, kMost)))
+               : 0;
+}
+
 // A place on the screen, px, as a whole number; where it is far from the picture, one next to it.
-float floorNear(float place, int size) {
-    const float bounded = std::clamp(place, -2.0f, static_cast<float>(size) + 2.0f);
-    return std::floor(bounded);
+int floorNear(float place, int size) {
+    constexpr int kBeside = 2;
+    const float bounded =
+        std::clamp(place, static_cast<float>(-kBeside), static_cast<float>(size + kBeside));
+    return static_cast<int>(bounded + kBeside) - kBeside;
 }
 
 struct Triangle {
@@ -45,7 +55,9 @@ struct Triangle {
     float area;
 };
 
-float slopeOf(const vec2& side) { return side.y != 0.0f ? side.x / side.y : 0.0f; }
+float slopeOf(const vec2& side) {
+    return side.y != 0.0f ? side.x / side.y : 0.0f;
+}
 
 Triangle triangleOf(vec2 a, vec2 b, vec2 c) {
     const vec2 ab = b - a, bc = c - b, ca = a - c;
@@ -82,11 +94,12 @@ float clampedIntegral(float x) {
     return 0.5f * inside * inside + std::max(x - 1.0f, 0.0f);
 }
 
-float sideCoverage(const vec2& from, const vec2& to, float slope) {
+inline float sideCoverage(const vec2& from, const vec2& to, float slope) {
     const float low = std::clamp(from.y, 0.0f, 1.0f);
     const float high = std::clamp(to.y, 0.0f, 1.0f);
     const float rise = high - low;
-    if (rise == 0.0f) return 0.0f;
+    if (rise == 0.0f || std::max(from.x, to.x) <= 0.0f) return 0.0f;
+    if (std::min(from.x, to.x) >= 1.0f) return rise;
     const float first = from.x + (low - from.y) * slope;
     const float last = from.x + (high - from.y) * slope;
     const float run = last - first;
@@ -97,7 +110,7 @@ float sideCoverage(const vec2& from, const vec2& to, float slope) {
 }
 
 // Of the square with this lower left corner whose side is 1 over `scale`, as a share of it.
-float coverageOf(const Triangle& triangle, const vec2& corner, float scale) {
+inline float coverageOf(const Triangle& triangle, const vec2& corner, float scale) {
     const vec2 a = scale * (triangle.a - corner);
     const vec2 b = scale * (triangle.b - corner);
     const vec2 c = scale * (triangle.c - corner);
@@ -180,7 +193,7 @@ struct PatchTriangle {
 
 struct PatchOnScreen {
     PatchTriangle triangles[2];
-    vec2 base;       // pixel that the triangles' corners count from
+    vec2 base;        // pixel that the triangles' corners count from
     ivec2 low, high;  // the rectangle of pixels that may be covered; none where it is empty
     bool isWhole;
 };
@@ -249,8 +262,8 @@ PatchTriangle Coverer::patchTriangle(const Patch& whole, const int (&corners)[3]
     const vec3 a = whole.corners[corners[0]], b = whole.corners[corners[1]],
                c = whole.corners[corners[2]];
     PatchTriangle made;
-    made.onScreen = triangleOf(places[corners[0]] - base, places[corners[1]] - base,
-                               places[corners[2]] - base);
+    made.onScreen =
+        triangleOf(places[corners[0]] - base, places[corners[1]] - base, places[corners[2]] - base);
     const Triangle& at = made.onScreen;
     const vec3 x(at.b.y - at.c.y, at.c.y - at.a.y, at.a.y - at.b.y);
     const vec3 y(at.c.x - at.b.x, at.a.x - at.c.x, at.b.x - at.a.x);
@@ -277,10 +290,10 @@ PatchTriangle Coverer::patchTriangle(const Patch& whole, const int (&corners)[3]
     const float mean = (densities.x + densities.y + densities.z) / 3.0f;
     const float minimum = std::min({densities.x, densities.y, densities.z});
     const float maximum = std::max({densities.x, densities.y, densities.z});
-    const bool isSmooth = (shading_ == TriangleShading::smooth
-                               ? maximum <= 4.0f * minimum
-                               : shading_ == TriangleShading::vertices) &&
-                          mean > 0.0f;
+    const bool isSmooth =
+        (shading_ == TriangleShading::smooth ? maximum <= 4.0f * minimum
+                                             : shading_ == TriangleShading::vertices) &&
+        mean > 0.0f;
     made.densities = isSmooth ? densities / mean : vec3(1.0f);
     made.isShaded = whole.isJoined && shading_ != TriangleShading::smooth;
     return made;
@@ -290,17 +303,15 @@ PatchOnScreen Coverer::onScreen(const Patch& whole) const {
     vec2 places[4];
     for (int i = 0; i < 4; ++i)
         places[i] = pixels_.pixelOf(whole.corners[i]);
-    const vec2 minimum =
-        glm::min(glm::min(places[0], places[1]), glm::min(places[2], places[3])) - 2.0f * kMinHeight;
-    const vec2 maximum =
-        glm::max(glm::max(places[0], places[1]), glm::max(places[2], places[3])) + 2.0f * kMinHeight;
+    const vec2 minimum = glm::min(glm::min(places[0], places[1]), glm::min(places[2], places[3])) -
+                         2.0f * kMinHeight;
+    const vec2 maximum = glm::max(glm::max(places[0], places[1]), glm::max(places[2], places[3])) +
+                         2.0f * kMinHeight;
     PatchOnScreen made;
     made.base = {std::floor(minimum.x), std::floor(minimum.y)};
     const ivec2& size = pixels_.size();
-    const ivec2 begin(static_cast<int>(floorNear(minimum.x, size.x)),
-                      static_cast<int>(floorNear(minimum.y, size.y)));
-    const ivec2 end(static_cast<int>(floorNear(maximum.x, size.x)),
-                    static_cast<int>(floorNear(maximum.y, size.y)));
+    const ivec2 begin(floorNear(minimum.x, size.x), floorNear(minimum.y, size.y));
+    const ivec2 end(floorNear(maximum.x, size.x), floorNear(maximum.y, size.y));
     made.low = glm::max(begin, 0);
     made.high = glm::min(end, size - 1);
     made.isWhole = made.low == begin && made.high == end;
@@ -322,8 +333,8 @@ ivec2 Coverer::spanOf(const PatchOnScreen& onto, float bottom, float top) const 
     }
     if (!(span.x <= span.y)) return {1, 0};
     const int width = pixels_.size().x;
-    return {std::max(static_cast<int>(floorNear(span.x + onto.base.x, width)), onto.low.x),
-            std::min(static_cast<int>(floorNear(span.y + onto.base.x, width)), onto.high.x)};
+    return {std::max(floorNear(span.x + onto.base.x, width), onto.low.x),
+            std::min(floorNear(span.y + onto.base.x, width), onto.high.x)};
 }
 
 bool seesLitSide(const vec3& position, const Side& side) {
@@ -332,8 +343,7 @@ bool seesLitSide(const vec3& position, const Side& side) {
 }
 
 float litShare(const vec3& seenNormal, const vec3& plane, bool isShaded, const Side& side) {
-    const float cosine =
-        glm::dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0f : -1.0f);
+    const float cosine = glm::dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0f : -1.0f);
     if (cosine <= 0.0f) return 0.0f;
     if (isShaded) return 1.0f;
     const float slant = std::abs(glm::dot(plane, side.direction));
@@ -403,8 +413,8 @@ PlanePixel Coverer::partIn(const ivec2& pixel, const PatchOnScreen& onto,
         return sum;
     }
     for (int i = 0; i < kEdgeSamples; ++i) {
-        addPlace(sum, onto, whole, corner + 0.5f * vec2(i & 1, i >> 1), 0.5f,
-                 corner + edgePlace(i), pixels_.sample(at.number, i), true, at.middle.area);
+        addPlace(sum, onto, whole, corner + 0.5f * vec2(i & 1, i >> 1), 0.5f, corner + edgePlace(i),
+                 pixels_.sample(at.number, i), true, at.middle.area);
     }
     return sum;
 }
@@ -459,19 +469,14 @@ void Coverer::addToSquares(const PatchOnScreen& onto, const Patch& whole) {
 }
 
 void Coverer::deposit(std::int32_t place, const vec3& flux) const {
-    for (int channel = 0; channel < 3; ++channel) {
-        const float whole = std::floor(flux[channel] * sums_.unitsPerWatt + 0.5f);
-        if (!(whole > 0.0f)) continue;
-        std::uint64_t* sum = nullptr;
-        if (place >= 0) {
-            sum = &sums_.pixels[3 * static_cast<std::size_t>(place) +
-                                static_cast<std::size_t>(channel)];
-        } else {
-            sum = reinterpret_cast<std::uint64_t*>(
-                &sums_.blocks[static_cast<std::size_t>(~place)].sums[2 * channel]);
-        }
-        std::atomic_ref(*sum).fetch_add(static_cast<std::uint64_t>(whole),
-                                        std::memory_order_relaxed);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const std::uint64_t units =
+            wholeOf(flux[static_cast<int>(channel)] * sums_.unitsPerWatt + 0.5f);
+        if (units == 0) continue;
+        std::uint64_t& sum = place >= 0
+                                 ? sums_.pixels[3 * static_cast<std::size_t>(place) + channel]
+                                 : sums_.blocks[static_cast<std::size_t>(~place)].sums[channel];
+        std::atomic_ref(sum).fetch_add(units, std::memory_order_relaxed);
     }
 }
 
@@ -483,7 +488,7 @@ void Coverer::book(std::uint32_t account, const vec3& flux) {
     }
     const float units = watts * sums_.unitsPerWatt;
     if (units < 0.25f) return;  // nothing, or another batch's
-    ledger_[account].units += static_cast<std::uint64_t>(std::floor(units));
+    ledger_[account].units += wholeOf(units);
     ++ledger_[account].events;
 }
 
@@ -566,8 +571,8 @@ void Coverer::cover(const Patch& whole) {
     } else if (size.x > 0) {
         addToPixels(onto, whole);
     }
-    const float found = parts_.on + parts_.occluded +
-                        (onto.isWhole ? 0.0f : std::max(1.0f - parts_.inView, 0.0f));
+    const float found =
+        parts_.on + parts_.occluded + (onto.isWhole ? 0.0f : std::max(1.0f - parts_.inView, 0.0f));
     const float beyond = found > 0.0f ? std::max(0.5f - found, 0.0f) : 0.0f;
     const float total = found + beyond;
     if (!(total > 0.0f)) return depositNear(whole);
@@ -613,7 +618,8 @@ void SeenPixels::look(const render::RasterView& view, const Textures& textures,
     pixels_.resize(textures.receiver.size());
     std::uint32_t numbers = 0;
     for (const glm::vec4& seen : textures.receiver)
-        numbers = std::max(numbers, textures.samples.empty() ? 0u : static_cast<std::uint32_t>(seen.z));
+        numbers =
+            std::max(numbers, textures.samples.empty() ? 0u : static_cast<std::uint32_t>(seen.z));
     samples_.resize(static_cast<std::size_t>(numbers) * kEdgeSamples);
     blocks_.resize(blocks.size());
     tbb::parallel_for(0, size_.y, [&](int y) {
@@ -648,8 +654,8 @@ void coverPatches(std::span<const PatchData> patches, const SeenPixels& pixels,
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           Coverer& own = coverers.local();
                           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                              const bool isNone =
-                                  (static_cast<std::uint32_t>(patches[i].flux.w) & kPatchIsNone) != 0;
+                              const bool isNone = (static_cast<std::uint32_t>(patches[i].flux.w) &
+                                                   kPatchIsNone) != 0;
                               if (!isNone) own.cover(unpacked(patches[i]));
                           }
                       });

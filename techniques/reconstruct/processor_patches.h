@@ -55,8 +55,7 @@ class SeenPixels {
     }
     [[nodiscard]] float depthMargin(const glm::vec3& ray, float depth,
                                     const glm::vec3& normal) const;
-    [[nodiscard]] float pixelArea(const glm::vec3& ray, float depth,
-                                  const glm::vec3& normal) const;
+    [[nodiscard]] float pixelArea(const glm::vec3& ray, float depth, const glm::vec3& normal) const;
     [[nodiscard]] const glm::ivec2& size() const { return size_; }
     [[nodiscard]] int blocksOfRow() const { return blocksOfRow_; }
     [[nodiscard]] float nearMeters() const { return near_; }
@@ -95,8 +94,8 @@ struct LedgerSum {
 };
 using LedgerSums = std::array<LedgerSum, transport::kLedgerEntryCount>;
 
-// Adds what the patches bring, to the ledger too. All sums are of whole numbers: the same to the bit
-// whichever thread comes first.
+// Adds what the patches bring, to the ledger too. All sums are of whole numbers: the same to the
+// bit whichever thread comes first.
 void coverPatches(std::span<const PatchData> patches, const SeenPixels& pixels,
                   TriangleShading shading, const PatchSums& sums, LedgerSums& ledger);
 

@@ -9,11 +9,6 @@
 namespace kaustik {
 namespace {
 
-// The shared part of frames in which nobody has asked for pixels yet is empty.
-struct Slot {
-    std::shared_ptr<ProcessorPixels> pixels;
-};
-
 void add(transport::LedgerEntry& entry, const LedgerSum& sum) {
     const std::uint64_t before = static_cast<std::uint64_t>(entry.high) << 32u | entry.low;
     const std::uint64_t after = before + sum.units;
@@ -23,13 +18,6 @@ void add(transport::LedgerEntry& entry, const LedgerSum& sum) {
 }
 
 }  // namespace
-
-std::shared_ptr<ProcessorPixels> processorPixels(FrameBuilder& frame, bool makes) {
-    const auto slot = frame.once<Slot>("reconstruct.triangles.processor_pixels",
-                                       [] { return std::make_shared<Slot>(); });
-    if (makes && !slot->pixels) slot->pixels = std::make_shared<ProcessorPixels>();
-    return slot->pixels;
-}
 
 void clearPixels(ProcessorPixels& pixels, const render::RasterView& eye, const Store& store,
                  const EdgeSamples& edges, const graph::Buffer<PixelBlock>& blocks,
@@ -47,9 +35,8 @@ void clearPixels(ProcessorPixels& pixels, const render::RasterView& eye, const S
     pixels.seen.look(eye, textures, pixels.blocks);
 }
 
-void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed,
-                      TriangleShading shading, float quantumWatts, const Ledger& ledger,
-                      const gl::PassContext& context) {
+void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed, TriangleShading shading,
+                      float quantumWatts, const Ledger& ledger, const gl::PassContext& context) {
     if (context.isListing()) {
         for (std::size_t kind = 0; kind < listed.kinds; ++kind)
             listed.make(kind, 0);
@@ -67,8 +54,8 @@ void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed,
             if (std::max(begins[kind], first) < std::min(begins[kind + 1], end))
                 listed.make(kind, static_cast<int>(begins[kind] - first));
         }
-        const auto patches = context.buffer(listed.made)
-                                 .readFirst<PatchData>(static_cast<std::size_t>(end - first));
+        const auto patches =
+            context.buffer(listed.made).readFirst<PatchData>(static_cast<std::size_t>(end - first));
         coverPatches(patches, pixels.seen, shading,
                      {pixels.sums, pixels.blocks, 1.0f / quantumWatts}, all);
     }

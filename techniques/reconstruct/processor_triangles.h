@@ -21,9 +21,6 @@ struct ProcessorPixels {
     std::vector<PixelBlock> blocks;
 };
 
-// Those of the frame; null where the device covers its pixels. `makes`: for who covers them.
-[[nodiscard]] std::shared_ptr<ProcessorPixels> processorPixels(FrameBuilder& frame, bool makes);
-
 // The first thing in a frame, once squares of pixels are made: nothing has light.
 void clearPixels(ProcessorPixels& pixels, const render::RasterView& eye, const Store& store,
                  const EdgeSamples& edges, const graph::Buffer<PixelBlock>& blocks,
@@ -38,8 +35,7 @@ struct ListedPatches {
     // first that there is room for.
     std::function<void(std::size_t kind, int firstPlace)> make;
 };
-void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed,
-                      TriangleShading shading, float quantumWatts, const Ledger& ledger,
-                      const gl::PassContext& context);
+void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed, TriangleShading shading,
+                      float quantumWatts, const Ledger& ledger, const gl::PassContext& context);
 
 }  // namespace kaustik

@@ -26,10 +26,6 @@
 #include "techniques/thread_lists/thread_list.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "techniques/reconstruct/processor_triangles.h"
-#else
-namespace kaustik {
-struct ProcessorPixels {};
-}  // namespace kaustik
 #endif
 
 namespace kaustik {
@@ -70,18 +66,19 @@ constexpr float kMaxWidthOnCube = 1.2f;
 
 // Null where the device covers the store's pixels: what a light's size spreads is laid many times,
 // and goes there.
-std::shared_ptr<ProcessorPixels> processorOf(FrameBuilder& frame, const TrianglesParams& params,
-                                             const Photons& photons, bool hasBlocks) {
+std::shared_ptr<ProcessorPixels> processorFor(const FrameBuilder& frame,
+                                              const TrianglesParams& params, const Photons& photons,
+                                              const FluxMap& before) {
 #ifdef KAUSTIK_HAS_EMBREE
     const bool isAsked = params.cover == CoverBy::processor ||
                          (params.cover == CoverBy::automatic && frame.inputs().isOnProcessor);
-    if (isAsked && hasBlocks && !photons.hasLightSpread() && !frame.view().isOrthographic)
-        return processorPixels(frame, true);
+    if (!isAsked || photons.hasLightSpread() || frame.view().isOrthographic) return nullptr;
+    return before.byProcessor ? before.byProcessor : std::make_shared<ProcessorPixels>();
 #else
     static_cast<void>(frame), static_cast<void>(params), static_cast<void>(photons);
-    static_cast<void>(hasBlocks);
-#endif
+    static_cast<void>(before);
     return nullptr;
+#endif
 }
 
 Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometry& geometry,
@@ -115,7 +112,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
     // A light's map is read between its texels, and how light goes to the eye is each pixel's own.
     const bool hasBlocks = store.isEyeView() && !isGlossy;
     const std::shared_ptr<ProcessorPixels> processor =
-        processorOf(frame, params, hits.incoming, hasBlocks);
+        hasBlocks ? processorFor(frame, params, hits.incoming, before) : nullptr;
     // The processor tells the kinds of wide ones apart by itself.
     const std::size_t wideKinds = hasBlocks && !processor ? kWideKinds : 1;
     const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches) / wideKinds;
@@ -130,6 +127,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                  : reason,
         [&](graph::PassSetup& setup, Data& data) {
             data.stored = depositIn(setup, store, hits, before, sets);
+            data.stored.map.byProcessor = processor;
             if (hits.incoming.extents.valid()) {
                 setup.sample("cellExtents", hits.incoming.extents);
                 setup.define("CELL_EXTENTS");
@@ -162,7 +160,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
             }
             create(data.clamped, "ClampedWidths", "clamped", 1);
         },
-        [params, sets, store, wideCapacity, hasBlocks, processor, edges, list = hits.incoming,
+        [params, sets, store, wideCapacity, hasBlocks, edges, list = hits.incoming,
          &inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
             if (!context.isRepeated()) context.buffer(data.clamped).clear();
@@ -214,10 +212,10 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
             };
             countGroups(Listed::patches);
 #ifdef KAUSTIK_HAS_EMBREE
-            if (processor) {
+            if (ProcessorPixels* const pixels = data.stored.map.byProcessor.get()) {
                 if (data.stored.isFirst && !context.isRepeated() && !context.isListing()) {
-                    clearPixels(*processor, inputs.view, store, edges,
-                                data.stored.map.pixelBlocks, context);
+                    clearPixels(*pixels, inputs.view, store, edges, data.stored.map.pixelBlocks,
+                                context);
                 }
                 const auto make = [&](std::size_t kind, int firstPlace) {
                     gl::Command command = shaderOfPhotons("reconstruct/triangles_made.comp");
@@ -228,10 +226,9 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                         .set("listCapacity", listCapacity);
                     dispatchOverPatches(std::move(command), kind);
                 };
-                coverOnProcessor(*processor,
-                                 {data.patches, kPatchKinds, data.wide, wideCapacity, make},
-                                 params.shading, inputs.ledgerQuantumWatts, data.stored.ledger,
-                                 context);
+                coverOnProcessor(
+                    *pixels, {data.patches, kPatchKinds, data.wide, wideCapacity, make},
+                    params.shading, inputs.ledgerQuantumWatts, data.stored.ledger, context);
                 return;
             }
 #endif

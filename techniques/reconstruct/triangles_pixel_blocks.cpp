@@ -46,11 +46,6 @@ CausticMap shareOutPixelBlocks(FrameBuilder& frame, CausticMap map) {
         graph::Buffer<PixelBlock> blocks;
         graph::Buffer<std::uint32_t> sums;  // where the processor has some
     };
-#ifdef KAUSTIK_HAS_EMBREE
-    const std::shared_ptr<ProcessorPixels> processor = processorPixels(frame, false);
-#else
-    constexpr std::nullptr_t processor = nullptr;
-#endif
     for (FluxMap& own : map.maps) {
         if (!own.pixelBlocks.valid()) continue;
         const auto pixels = static_cast<std::size_t>(own.on.views->width()) *
@@ -62,19 +57,21 @@ CausticMap shareOutPixelBlocks(FrameBuilder& frame, CausticMap map) {
                       [&](graph::PassSetup& setup, Data& data) {
                           data.map = own;
                           data.map.pixelBlocks = {};
+                          data.map.byProcessor = nullptr;
+                          const bool isByProcessor = own.byProcessor != nullptr;
                           setup.sample("receiver", own.on.receiver);
                           data.blocks = setup.storage(
-                              "PixelBlocks", processor ? setup.write(own.pixelBlocks)
-                                                       : own.pixelBlocks);
+                              "PixelBlocks",
+                              isByProcessor ? setup.write(own.pixelBlocks) : own.pixelBlocks);
                           data.map.flux = setup.image("fluxSums", setup.write(own.flux));
-                          if (processor) {
-                              data.sums = setup.storage(
-                                  "PixelSums", setup.createBuffer<std::uint32_t>(
-                                                   "caustic.pixel_sums", 6 * pixels));
+                          if (isByProcessor) {
+                              data.sums =
+                                  setup.storage("PixelSums", setup.createBuffer<std::uint32_t>(
+                                                                 "caustic.pixel_sums", 6 * pixels));
                           }
                       },
-                      [views = own.on.views, processor, pixels](const Data& data,
-                                                                gl::PassContext& context) {
+                      [views = own.on.views, processor = own.byProcessor, pixels](
+                          const Data& data, gl::PassContext& context) {
                           const auto shader = [&](const char* name) {
                               gl::Command command = context.compute(name);
                               views->bindTo(command);
@@ -90,7 +87,8 @@ CausticMap shareOutPixelBlocks(FrameBuilder& frame, CausticMap map) {
                                   .dispatchOver(static_cast<int>(pixels), 64);
                           }
 #else
-                          static_cast<void>(data), static_cast<void>(pixels);
+                          static_cast<void>(data), static_cast<void>(processor),
+                              static_cast<void>(pixels);
 #endif
                           shader("reconstruct/triangles_pixel_blocks_share.comp")
                               .dispatchOver(pixelBlockCount(views), 64);
