@@ -61,7 +61,7 @@ def main() -> int:
     with table.open(newline="", encoding="utf-8") as lines:
         rows = list(csv.DictReader(lines))
     keys = keys_noted(arguments.results)
-    chosen = [row for row in rows if row["technique"] in arguments.technique and row["emit.photons"] == arguments.photons and row.get("as_published") != "true" and row["status"] == "done"]
+    chosen = [row for row in rows if row["technique"] in arguments.technique and row.get("emit.photons", arguments.photons) == arguments.photons and row.get("as_published") != "true" and row["status"] == "done"]
     made = {(row["technique"], row["scene"]): row for row in (rows_in(arguments.out) if arguments.keep else [])}
     for row in chosen:
         of_the_run = {key: row.get(key, "") for key in OF_THE_RUN} | {"device": device_of(row), "sources": keys.get(row["folder"], "")}
