@@ -11,7 +11,7 @@ What is in WORK already is not made again, and rows of cases that are not asked 
 are outside of their interval by more than z standard errors, where z is what one of that many independent normal values exceeds with a
 probability of 5 %; `largest z`: of all values. A row says when its files were made, and of which sources (plotting/sources.py: the framework,
 what certifies, the scene), as far as this program made them; with --anew what is of other sources is made again. A certificate that takes more than --seconds is left as "time is up"; the next call goes on
-with it.
+with it. `seconds`: what the certificate took, in all calls.
 """
 
 import argparse
@@ -40,7 +40,7 @@ CASES = {
     "glass-sphere": ("glass-sphere", 2, 0.02),
 }
 COLUMNS = ["scene", "interactions", "band", "status", "lit", "median width", "p95 width", "undecided", "total width", "emitted", "deposited",
-           "reference deposited", "undecided watts", "cells", "photons", "largest z", "outside", "beyond", "version", "date", "sources"]
+           "reference deposited", "undecided watts", "cells", "seconds", "photons", "largest z", "outside", "beyond", "version", "date", "sources"]
 
 
 def picture(file: pathlib.Path) -> np.ndarray:
@@ -73,7 +73,7 @@ def row_of(name: str, certificate: pathlib.Path, reference: pathlib.Path) -> dic
     return {"scene": name.split(",")[0], "interactions": interactions, "band": found["request"]["band_px"], "status": "done", "lit": pixels["lit"],
             "median width": pixels["median_width"], "p95 width": pixels["p95_width"], "undecided": pixels["undecided"] / max(pixels["lit"], 1),
             "total width": found["deposited_width"], "emitted": sum(energy["emitted_w"]) / 2, "deposited": sum(energy["deposited_w"]) / 2,
-            "reference deposited": truth["energy"]["deposited_w"], "undecided watts": energy["undecided_w"], "cells": found["cells"],
+            "reference deposited": truth["energy"]["deposited_w"], "undecided watts": energy["undecided_w"], "cells": found["cells"], "seconds": found["seconds"],
             "photons": truth["photons"], "largest z": z.max(), "outside": int((z > 0).sum()), "beyond": int((z > limit).sum()),
             "version": found["version"], **made(note_of(certificate), note_of(reference))}
 

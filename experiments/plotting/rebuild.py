@@ -312,6 +312,8 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
                 record(out / study, study, ROOT / "results" / STUDIES[study])
             if study == "bias":
                 call(sys.executable, "-B", PLOTTING / "bias.py", out / study, "--out", ROOT / "results/bias")
+            if study == "all_techniques":
+                call(sys.executable, "-B", PLOTTING / "profiles.py", out / study, "--out", ROOT / "results/all_techniques/profile.csv", *(["--keep"] if is_part else []))
             if study in ("all_techniques", "best_mixtures"):
                 compare_with_light_tracer(kaustik, anew, [condition.removeprefix("scene=") for condition in only or [] if condition.startswith("scene=")])
             if study == "best_mixtures_choice":

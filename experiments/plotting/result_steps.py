@@ -35,6 +35,8 @@ STEPS = {
     "tuned": Step("all_techniques/tuned.csv", (("experiments/tuned.py", "--kaustik", KAUSTIK),)),
     "census": Step("census/*.csv", (("experiments/census.py", "--kaustik", KAUSTIK),), takes_anew=True),
     "certified": Step("certified.csv", (("experiments/certified.py",),), takes_anew=True),
+    "proved_wrong": Step("proved_wrong.csv", (("experiments/proved_wrong.py", "--kaustik", KAUSTIK),
+                                              ("experiments/proved_wrong.py", "--kaustik", KAUSTIK, "--techniques", "exact_rays", "--photons", "1024x1024"))),
     "judge": Step("judge/*.csv", (("experiments/judge_povray.py", "--out", "results/judge"),), needs="povray"),
     "flicker": Step("flicker/*", (("experiments/flicker.py", "--out", "results/flicker"),), takes_anew=True),
     "costs": Step("costs/passes.csv", (("experiments/costs.sh",),)),
