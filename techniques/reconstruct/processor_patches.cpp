@@ -41,12 +41,14 @@ std::uint64_t wholeOf(float units) {
                : 0;
 }
 
-// A place on the screen, px, as a whole number; where it is far from the picture, one next to it.
+// A place on the screen, px, as a whole number; where it is far from the picture, or not a number,
+// one next to it.
 int floorNear(float place, int size) {
-    constexpr int kBeside = 2;
-    const float bounded =
-        std::clamp(place, static_cast<float>(-kBeside), static_cast<float>(size + kBeside));
-    return static_cast<int>(bounded + kBeside) - kBeside;
+    constexpr int kAway = 2;
+    const float bounded = place > static_cast<float>(-kAway)
+                              ? std::min(place, static_cast<float>(size + kAway))
+                              : static_cast<float>(-kAway);
+    return static_cast<int>(bounded + static_cast<float>(kAway)) - kAway;
 }
 
 struct Triangle {
