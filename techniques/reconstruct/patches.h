@@ -17,6 +17,7 @@ struct PatchData {
     glm::vec4 direction;   // xyz; w: its tolerance, m
     glm::vec4 flux;        // rgb, W; w: bits, those below
 };
+static_assert(sizeof(PatchData) == 112);
 constexpr std::uint32_t kPatchIsJoined = 1;
 constexpr std::uint32_t kPatchIsFromBehind = 2;
 constexpr std::uint32_t kPatchIsAlone = 4;
@@ -27,6 +28,7 @@ struct PixelBlock {
     std::uint64_t sums[3];  // which shaders have as low and high words
     std::uint32_t unused[2];
 };
+static_assert(sizeof(PixelBlock) == 48);
 constexpr int kPixelBlockSide = 4;  // px
 
 }  // namespace kaustik

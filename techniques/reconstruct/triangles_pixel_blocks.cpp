@@ -81,7 +81,12 @@ CausticMap shareOutPixelBlocks(FrameBuilder& frame, CausticMap map) {
                           if (processor) {
                               if (!context.isListing()) {
                                   context.buffer(data.blocks).upload(processor->blocks);
-                                  context.buffer(data.sums).upload(processor->sums);
+                                  // There are none where the pass that makes them is off.
+                                  if (processor->sums.empty()) {
+                                      context.buffer(data.sums).clear();
+                                  } else {
+                                      context.buffer(data.sums).upload(processor->sums);
+                                  }
                               }
                               shader("reconstruct/triangles_pixel_sums.comp")
                                   .dispatchOver(static_cast<int>(pixels), 64);
