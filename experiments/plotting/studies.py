@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What is made of other files than a study's runs here, by which file in experiments/.
 DERIVED = {"device/h100_errors.csv": "device_errors.toml", "device/h100_times.csv": "device_times.toml", "device/second_driver.csv": "second_driver.sh", "lamps/before_after.csv": "two_builds.py", "exact_rays/h200_errors.csv": "exact_rays.toml",
            "exact_rays/h200_times.csv": "exact_rays_times.toml", "wyman2008/lens_widths.csv": "plotting/lens_widths.py", "flicker/flicker.csv": "flicker.py",
-           "krueger2006/tiles.csv": "krueger2006_tiles.sh", "all_techniques/light_tracer.csv": "light_tracer.py", "all_techniques/profile.csv": "plotting/profiles.py", "all_techniques/tuned.csv": "tuned.py", "all_techniques/in_turn.csv": "against_light_tracer.py", "all_techniques/in_turn_xeon.csv": "against_light_tracer.py",
+           "krueger2006/tiles.csv": "krueger2006_tiles.sh", "all_techniques/light_tracer.csv": "light_tracer.py", "all_techniques/profile.csv": "plotting/profiles.py", "all_techniques/tuned.csv": "tuned.py", "all_techniques/in_turn.csv": "against_light_tracer.py", "all_techniques/in_turn_xeon.csv": "against_light_tracer.py", "all_techniques/in_turn_screen_xeon.csv": "against_light_tracer.py",
            "reconstructions/on_a_processor.csv": "two_builds.py", "reconstructions/rays_by_processor.csv": "two_builds.py", "reconstructions/cover_by_processor.csv": "two_builds.py",
            "judge/classes.csv": "judge_povray.py", "judge/scenes.csv": "judge_povray.py",
            "gallery/gallery.csv": "plotting/gallery.py", "certified.csv": "certified.py", "proved_wrong.csv": "proved_wrong.py", "costs/passes.csv": "costs.sh", "census/classes.csv": "census.py", "census/techniques.csv": "census.py",
