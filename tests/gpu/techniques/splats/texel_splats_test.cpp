@@ -31,6 +31,8 @@ TEST(BlurredPoints, AreSplatsByLinearity) {
                                             {"reconstruct.fixed.edges", "crossed"}}));
         const MapFrame points(scene, "caustic_map",
                               with(kSmall, {{"reconstruct.fixed.diameter", "1"},
+                                            // Also of a texel whose middle sees past the floor.
+                                            {"reconstruct.fixed.edges", "crossed"},
                                             {"filter", "blur"},
                                             {"filter.blur.diameter", blur}}));
         const MapTexels drawn = storedIn(splats);
