@@ -252,7 +252,7 @@ class Counter {
     std::vector<double> pixels_;
 };
 
-// As include/views/octahedral.glsl folds it.
+// As framework/transport/octahedral.h folds it.
 glm::dvec3 unfoldUnitVector(const glm::dvec2& folded) {
     glm::dvec3 n(folded, 1.0 - std::abs(folded.x) - std::abs(folded.y));
     if (n.z < 0.0) {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <epoxy/gl.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <map>

@@ -43,8 +43,8 @@ struct FluxSets {
     [[nodiscard]] int perView() const { return isGlossy() ? 2 * flux() : flux(); }
 };
 
-struct PixelBlock;
-struct ProcessorPixels;  // techniques/reconstruct/triangles_pixel_blocks.h
+struct PixelBlock;       // techniques/reconstruct/pixel_block.h
+struct ProcessorPixels;  // techniques/reconstruct/processor_triangles.h
 
 // Flux that has arrived, W a texel, on what some views see: sums that depend neither on the order
 // nor on the batches of what was added. Names in shaders: include/maps/flux_sum.glsl.

@@ -20,7 +20,7 @@ struct SquarePlane {  // xyz: 1/z in a square's middle, 1/m, 0 empty, and its gr
     static constexpr Format format = Format::rgba32f;
 };
 // All that a hit test asks of a layer, in one place. x: view depth in m, 0 none; yz: the triangle's
-// outward unit normal, octahedral (include/views/octahedral.glsl); w: material + 1.
+// outward unit normal, octahedral (framework/transport/octahedral.h); w: material + 1.
 struct LayerTexel {
     static constexpr Format format = Format::rgba32f;
 };

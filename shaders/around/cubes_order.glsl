@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What surfaces of a cube's layers are told apart by when they are put into slots: which way they
 // face on which material, and how many of these the texel has had before.
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/views/view.glsl"
 
 uniform sampler2DArray layerDepths;

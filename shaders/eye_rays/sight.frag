@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The first surface that rays next to the pixels' middles see (SightTexel): of a receiver, where
 // nothing specular lies before it, the depth is negative.
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"

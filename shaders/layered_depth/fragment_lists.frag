@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Adds a fragment to the list of its pixel (Yang et al. 2010) and to its count: what peel.frag
 // writes, as bits, and the number of its triangle.
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"

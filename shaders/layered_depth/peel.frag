@@ -3,7 +3,7 @@
 // holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
 // down to what 32-bit view depth can (hard cases 12, 13). COUNTED: memory was not cleared, and what
 // a pixel's layers hold is defined as far as it has fragments.
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"

@@ -2,7 +2,7 @@
 // One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in
 // nearness, which is linear on the screen where a surface is flat, and how far what a ray may hit
 // there lies from it. One thread a square.
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/views/view.glsl"
 #include "layered_depth/pyramid_layout.glsl"
 

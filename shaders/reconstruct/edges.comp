@@ -6,7 +6,7 @@
 // One thread a pixel of the list.
 #include "include/surfaces/surface_data.glsl"
 #include "include/thread.glsl"
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "reconstruct/edges.glsl"
 #include "include/views/edge_places.glsl"
 #ifndef SEEN_BY_PROCESSOR

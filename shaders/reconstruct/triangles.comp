@@ -13,9 +13,6 @@
 uniform int wideCapacity;
 uniform int listCapacity;
 
-// Pixels of the rectangles around a patch, or each of its copies, for one thread.
-const int kMaxPixelsPerThread = 100;
-
 // What the shares that are to be deposited add up to; 0: none are.
 float findPatch(Patch whole, out Found found) {
     found = nothingFound();
@@ -35,7 +32,7 @@ float findPatch(Patch whole, out Found found) {
         ivec2 size = max(onto.high - onto.low + 1, ivec2(0));
         pixels += size.x * size.y;
     }
-    if (pixels > kMaxPixelsPerThread) {
+    if (pixels > kMaxPixelsOfNarrow) {
         uint kind = kindOfWide(whole);
         uint number = atomicAdd(widePatches[kind].count, 1u);
         if (number < uint(wideCapacity)) {

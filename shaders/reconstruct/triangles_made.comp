@@ -18,7 +18,7 @@ void threadMain() {
     if (place < 0 || place >= placeCount) return;
     Patch whole;
     bool isSeen = isPatchSeen(patchList[patchPlace(kKind, index, uint(listCapacity))], whole);
-    WidePatch made = packedPatch(whole);
-    if (!isSeen) made.flux = vec4(vec3(0.0), float(kWideNone));
+    PatchData made = packedPatch(whole);
+    if (!isSeen) made.flux = vec4(vec3(0.0), float(kPatchIsNone));
     widePatchList[place] = made;
 }

@@ -3,19 +3,13 @@
 // triangles with half of the flux each, evenly spread over each as it lies in space, or by the
 // densities at their corners. Whatever their shape, size and slant, what all pixels have of them
 // adds up to one, but for how what they see is turned.
-#include "include/maps/coverage.glsl"
+#include "framework/transport/coverage.h"
+#include "framework/transport/patches.h"
 #include "include/photons/beam.glsl"
 #include "include/photons/ledger.glsl"
 #include "include/views/edge_places.glsl"
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/views/seen_receiver.glsl"
-
-// How the surface lies, and from where light comes to it.
-struct PatchSide {
-    vec3 normal;
-    vec3 direction;
-    bool isFromBehind;  // to the back of a sheet
-};
 
 struct Patch {
     vec3 corners[4];  // around it
@@ -35,7 +29,7 @@ struct Patch {
 
 // One of a patch's two triangles on the screen.
 struct PatchTriangle {
-    Triangle onScreen;
+    ScreenTriangle onScreen;
     // Barycentric coordinates of a place on the screen, of x, y, 1, and by how much they change from
     // the middle of a pixel to the farthest of its corners.
     mat3 weights;
@@ -50,7 +44,7 @@ struct PatchTriangle {
 };
 
 void setWeights(inout PatchTriangle made) {
-    Triangle at = made.onScreen;
+    ScreenTriangle at = made.onScreen;
     vec3 x = vec3(at.b.y - at.c.y, at.c.y - at.a.y, at.a.y - at.b.y);
     vec3 y = vec3(at.c.x - at.b.x, at.a.x - at.c.x, at.b.x - at.a.x);
     vec3 begin = -x * vec3(at.b.x, at.c.x, at.a.x) - y * vec3(at.b.y, at.c.y, at.a.y);
@@ -129,17 +123,17 @@ PatchOnScreen onScreen(Patch whole) {
 // different threads are about as long: rows, or columns.
 struct PatchLines {
     bool areColumns;
-    Triangle first;  // with its x and y exchanged where they are columns
-    Triangle second;
+    ScreenTriangle first;  // with its x and y exchanged where they are columns
+    ScreenTriangle second;
     ivec2 base;
     ivec2 low;   // x: of a line's pixels; y: of the lines
     ivec2 high;
 };
 
-Triangle exchanged(Triangle of) {
+ScreenTriangle exchanged(ScreenTriangle of) {
     vec3 slopes = vec3(slopeOf((of.b - of.a).yx), slopeOf((of.c - of.b).yx),
                        slopeOf((of.a - of.c).yx));
-    return Triangle(of.a.yx, of.b.yx, of.c.yx, slopes, -of.area);
+    return ScreenTriangle(of.a.yx, of.b.yx, of.c.yx, slopes, -of.area);
 }
 
 PatchLines linesOf(PatchOnScreen onto) {
@@ -156,8 +150,7 @@ PatchLines linesOf(PatchOnScreen onto) {
 ivec2 spanOf(PatchLines lines, int line) {
     vec2 heights = vec2(line - lines.base.y) + vec2(0.0, 1.0);
     vec2 span = vec2(1e9, -1e9);
-    addToSpan(span, lines.first, heights);
-    addToSpan(span, lines.second, heights);
+    span = spanWith(spanWith(span, lines.first, heights), lines.second, heights);
     if (span.x > span.y) return ivec2(1, 0);
     ivec2 pixels = ivec2(floor(span)) + lines.base.x;
     return ivec2(max(pixels.x, lines.low.x), min(pixels.y, lines.high.x));
@@ -174,24 +167,6 @@ struct PlanePixel {
     float inView;    // that is before the pixel, seen or not
     float stored;    // `lit` for the area of the receiver that the pixel stands for
 };
-
-// A beam that grazes a plane by less than this sine tells nothing of how light falls on what turns
-// away from it.
-const float kMinLitSlant = 0.05;
-
-// How much of the light through a plane falls on what is seen with this normal: what turns away from
-// the light has less by its cosine, unless that is known already, and what is turned off it none.
-float litShare(vec3 seenNormal, vec3 plane, bool isShaded, PatchSide side) {
-    float cosine = dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0 : -1.0);
-    if (cosine <= 0.0) return 0.0;
-    float slant = abs(dot(plane, side.direction));
-    float least = max(kMinLitSlant - slant, 0.0);
-    return isShaded ? 1.0 : (cosine + least) / (slant + least);
-}
-
-// What the area of the middle's receiver may be of another's in its pixel: a surface that is seen
-// edge-on has no end of it.
-const float kMaxStored = 100.0;
 
 // By the receiver at a place in a pixel, `seen` and `seenNormal`, which stands for `share` of it.
 // `isAway`: the patch lies next to that place, so that where another surface is seen there and
@@ -297,10 +272,7 @@ float partOf(PatchTriangle triangle, vec2 corner, float side) {
     if (any(lessThanEqual(weights, -changes))) return 0.0;
     float covered = 1.0;
     if (any(lessThan(weights, changes))) {
-        Triangle at = triangle.onScreen;
-        float scale = 1.0 / side;
-        covered = coverageOf(Triangle(scale * at.a, scale * at.b, scale * at.c, at.slopes, at.area),
-                             scale * corner);
+        covered = coverageOf(triangle.onScreen, corner, 1.0 / side);
         if (covered <= 0.0) return 0.0;
         // The density where the triangle is nearest to the square's middle.
         weights = max(weights, 0.0);

@@ -13,8 +13,8 @@ const float kMinBlockCosine = 0.9995;
 const vec4 kSeveralSurfaces = vec4(0.0, -1.0, 0.0, 0.0);
 
 vec4 receiverOfBlock(ivec2 corner) {
-    if (any(greaterThan(corner + kBlockSide, ivec2(view.sizePixels.xy)))) return kSeveralSurfaces;
-    ivec2 middle = corner + kBlockSide / 2;
+    if (any(greaterThan(corner + kPixelBlockSide, ivec2(view.sizePixels.xy)))) return kSeveralSurfaces;
+    ivec2 middle = corner + kPixelBlockSide / 2;
     float depth = receiverAt(middle).x;
     vec3 normal = receiverSurfaceAt(middle).xyz;
     vec2 at = vec2(middle) + 0.5;
@@ -22,8 +22,8 @@ vec4 receiverOfBlock(ivec2 corner) {
     float margin = depthMargin(viewRay(at), depth, normal);
     float area = 0.0;
     vec3 normals = vec3(0.0);
-    for (int i = 0; i < kBlockSide * kBlockSide; ++i) {
-        ivec2 pixel = corner + ivec2(i % kBlockSide, i / kBlockSide);
+    for (int i = 0; i < kPixelBlockSide * kPixelBlockSide; ++i) {
+        ivec2 pixel = corner + ivec2(i % kPixelBlockSide, i / kPixelBlockSide);
         PixelParts parts = partsOf(pixel);
         vec2 seen = parts.middle;
         if (parts.count > 1 || (seen.x == 0.0) != (depth == 0.0)) return kSeveralSurfaces;
@@ -39,7 +39,7 @@ vec4 receiverOfBlock(ivec2 corner) {
     vec3 mean = normalize(normals);
     vec3 ray = viewRay(vec2(middle));
     float onPlane = depthOnPlane(vec2(middle), mean, point, boundedSlant(dot(mean, ray), 1e-4));
-    return vec4(onPlane, area / float(kBlockSide * kBlockSide), packUnitVector(mean));
+    return vec4(onPlane, area / float(kPixelBlockSide * kPixelBlockSide), packUnitVector(mean));
 }
 
 void main() {
@@ -47,6 +47,6 @@ void main() {
     uint index = threadNumber();
     if (index >= uint(blocks.x * blocks.y)) return;
     ivec2 block = ivec2(index % uint(blocks.x), index / uint(blocks.x));
-    pixelBlocks[index].receiver = receiverOfBlock(kBlockSide * block);
+    pixelBlocks[index].receiver = receiverOfBlock(kPixelBlockSide * block);
     pixelBlocks[index].sums = uint[6](0u, 0u, 0u, 0u, 0u, 0u);
 }

@@ -2,9 +2,8 @@
 // Squares of pixels that show one surface: a wide beam puts its light into the whole of them, and in
 // the end the pixels share it (several resolutions on the screen: Nichols and Wyman 2009, there of
 // indirect light). Exact but for where a beam's border lies within a square.
+#include "framework/transport/patches.h"
 #include "include/views/view.glsl"
-
-const int kBlockSide = 4;  // px
 
 struct PixelBlock {
     // What it shows: view depth at its middle, m; a pixel's mean area, m²; the normal, packed. Depth
@@ -17,9 +16,9 @@ layout(std430) buffer PixelBlocks {
 };
 
 ivec2 blocksOfView() {
-    return (ivec2(view.sizePixels.xy) + kBlockSide - 1) / kBlockSide;
+    return (ivec2(view.sizePixels.xy) + kPixelBlockSide - 1) / kPixelBlockSide;
 }
 
 int blockAt(ivec2 pixel) {
-    return pixel.y / kBlockSide * blocksOfView().x + pixel.x / kBlockSide;
+    return pixel.y / kPixelBlockSide * blocksOfView().x + pixel.x / kPixelBlockSide;
 }

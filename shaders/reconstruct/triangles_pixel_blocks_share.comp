@@ -27,13 +27,13 @@ void main() {
     if (index >= uint(blocks.x * blocks.y)) return;
     uint sums[6] = pixelBlocks[index].sums;
     if ((sums[0] | sums[1] | sums[2] | sums[3] | sums[4] | sums[5]) == 0u) return;
-    ivec2 corner = kBlockSide * ivec2(index % uint(blocks.x), index / uint(blocks.x));
-    const int kPixels = kBlockSide * kBlockSide;
+    ivec2 corner = kPixelBlockSide * ivec2(index % uint(blocks.x), index / uint(blocks.x));
+    const int kPixels = kPixelBlockSide * kPixelBlockSide;
     float perArea = 65536.0 / (float(kPixels) * pixelBlocks[index].receiver.y);
     float area = 0.0;
     uvec2 given[3] = uvec2[3](uvec2(0u), uvec2(0u), uvec2(0u));
     for (int i = 0; i < kPixels; ++i) {
-        ivec2 pixel = corner + ivec2(i % kBlockSide, i / kBlockSide);
+        ivec2 pixel = corner + ivec2(i % kPixelBlockSide, i / kPixelBlockSide);
         area += receiverAt(pixel).y;
         uint end = i == kPixels - 1 ? 65536u : min(uint(area * perArea + 0.5), 65536u);
         for (int channel = 0; channel < 3; ++channel) {

@@ -26,13 +26,12 @@ struct Walk {
 #ifdef WALKS_BLOCKS
 // The squares on a line of them, first and last, that a patch can cover; none where x > y.
 ivec2 blockSpanOf(PatchLines lines, int line) {
-    vec2 heights = vec2(kBlockSide * line - lines.base.y) + vec2(0.0, kBlockSide);
+    vec2 heights = vec2(kPixelBlockSide * line - lines.base.y) + vec2(0.0, kPixelBlockSide);
     vec2 span = vec2(1e9, -1e9);
-    addToSpan(span, lines.first, heights);
-    addToSpan(span, lines.second, heights);
+    span = spanWith(spanWith(span, lines.first, heights), lines.second, heights);
     if (span.x > span.y) return ivec2(1, 0);
     ivec2 pixels = ivec2(floor(span)) + lines.base.x;
-    return ivec2(max(pixels.x, lines.low.x), min(pixels.y, lines.high.x)) / kBlockSide;
+    return ivec2(max(pixels.x, lines.low.x), min(pixels.y, lines.high.x)) / kPixelBlockSide;
 }
 #endif
 
@@ -46,8 +45,8 @@ Walk walkOver(PatchOnScreen onto, int first, int step) {
     walk.parts = PixelParts(1, 1.0, 0u, vec2(0.0));
     walk.part = 0;
 #ifdef WALKS_BLOCKS
-    walk.line /= kBlockSide;
-    walk.last /= kBlockSide;
+    walk.line /= kPixelBlockSide;
+    walk.last /= kPixelBlockSide;
     walk.receiver = vec4(0.0);
 #endif
     walk.line += first - step;
@@ -70,8 +69,8 @@ bool isAtBlock(Walk walk) {
 // To the next pixel of a square that shows several surfaces; false: it has no other.
 bool goOnInBlock(inout Walk walk, PatchOnScreen onto) {
     if (isAtBlock(walk)) return false;
-    ivec2 corner = walk.pixel / kBlockSide * kBlockSide;
-    ivec2 high = min(corner + kBlockSide - 1, onto.high);
+    ivec2 corner = walk.pixel / kPixelBlockSide * kPixelBlockSide;
+    ivec2 high = min(corner + kPixelBlockSide - 1, onto.high);
     if (walk.pixel.x < high.x) {
         ++walk.pixel.x;
     } else if (walk.pixel.y < high.y) {
@@ -111,7 +110,7 @@ bool goOn(inout Walk walk, PatchOnScreen onto) {
     } while (walk.place > walk.span.y);
     walk.pixel = pixelOnLine(walk.lines, walk.line, walk.place);
 #ifdef WALKS_BLOCKS
-    walk.pixel *= kBlockSide;
+    walk.pixel *= kPixelBlockSide;
     walk.receiver = pixelBlocks[blockAt(walk.pixel)].receiver;
     walk.parts = PixelParts(1, 1.0, 0u, walk.receiver.xy);
     if (isAtBlock(walk)) return true;
@@ -130,7 +129,7 @@ void addPlace(PatchOnScreen onto, Walk walk, inout PlanePixel sum) {
     vec2 corner = vec2(walk.pixel - onto.base) + cornerOfPart(walk.parts, walk.part);
 #ifdef WALKS_BLOCKS
     if (isAtBlock(walk)) {
-        side = float(kBlockSide);
+        side = float(kPixelBlockSide);
         corner = vec2(walk.pixel - onto.base);
     }
 #endif

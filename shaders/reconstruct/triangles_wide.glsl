@@ -3,19 +3,8 @@
 #include "reconstruct/triangles_patch.glsl"
 #include "reconstruct/triangles_patch_list.glsl"
 
-struct WidePatch {
-    vec4 corners[4];  // xyz, m; w: the density there
-    vec4 normal;      // xyz; w: the share of the flux in the first of its triangles
-    vec4 direction;   // xyz; w: its tolerance, m
-    vec4 flux;        // rgb, W; w: bits, kWide…
-};
-const uint kWideJoined = 1u;
-const uint kWideFromBehind = 2u;
-const uint kWideAlone = 4u;
-const uint kWideNone = 8u;  // nothing is to be covered
-
 layout(std430) buffer WidePatches {
-    WidePatch widePatchList[];
+    PatchData widePatchList[];
 };
 
 // Where a wide beam ends is known no better than by a square of pixels, unless something is joined
@@ -27,19 +16,19 @@ uint kindOfWide(Patch whole) {
     return kWideToPixels;
 }
 
-WidePatch packedPatch(Patch whole) {
-    WidePatch made;
+PatchData packedPatch(Patch whole) {
+    PatchData made;
     for (int i = 0; i < 4; ++i) made.corners[i] = vec4(whole.corners[i], whole.densities[i]);
     made.normal = vec4(whole.side.normal, whole.first);
     made.direction = vec4(whole.side.direction, whole.tolerance);
-    uint bits = (whole.isJoined ? kWideJoined : 0u) |
-                (whole.side.isFromBehind ? kWideFromBehind : 0u) |
-                (whole.isAlone ? kWideAlone : 0u);
+    uint bits = (whole.isJoined ? kPatchIsJoined : 0u) |
+                (whole.side.isFromBehind ? kPatchIsFromBehind : 0u) |
+                (whole.isAlone ? kPatchIsAlone : 0u);
     made.flux = vec4(whole.flux, float(bits));
     return made;
 }
 
-Patch unpackedPatch(WidePatch from) {
+Patch unpackedPatch(PatchData from) {
     Patch made;
     for (int i = 0; i < 4; ++i) {
         made.corners[i] = from.corners[i].xyz;
@@ -47,11 +36,11 @@ Patch unpackedPatch(WidePatch from) {
     }
     uint bits = uint(from.flux.w);
     made.side =
-        PatchSide(from.normal.xyz, from.direction.xyz, (bits & kWideFromBehind) != 0u);
+        PatchSide(from.normal.xyz, from.direction.xyz, (bits & kPatchIsFromBehind) != 0u);
     made.first = from.normal.w;
     made.tolerance = from.direction.w;
     made.flux = from.flux.rgb;
-    made.isJoined = (bits & kWideJoined) != 0u;
+    made.isJoined = (bits & kPatchIsJoined) != 0u;
     made.isAlone = false;  // its list says so
     made.narrowing = 1.0;
     return made;

@@ -2,7 +2,7 @@
 // Blends each pixel's irradiance with what the frame before had where it saw the same place of the
 // same receiver. Histories are arrays of two layers, of which one is read and the other written in
 // turn. One thread a pixel.
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/views/view.glsl"
 #include "techniques/temporal/reproject_views.h"
 

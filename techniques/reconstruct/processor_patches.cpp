@@ -9,6 +9,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "framework/transport/coverage.h"
+
 namespace kaustik {
 
 using glm::ivec2;
@@ -17,20 +19,6 @@ using glm::vec3;
 using namespace transport;
 
 namespace {
-
-constexpr float kMinHeight = 1.0f / 64.0f;
-constexpr float kMaxSlope = 8.0f;
-constexpr float kMinLitSlant = 0.05f;
-constexpr float kMaxStored = 100.0f;
-
-vec3 unpackUnitVector(const vec2& folded) {
-    vec3 n(folded, 1.0f - std::abs(folded.x) - std::abs(folded.y));
-    if (n.z < 0.0f) {
-        n = vec3((1.0f - std::abs(folded.y)) * (folded.x >= 0.0f ? 1.0f : -1.0f),
-                 (1.0f - std::abs(folded.x)) * (folded.y >= 0.0f ? 1.0f : -1.0f), n.z);
-    }
-    return glm::normalize(n);
-}
 
 // Whole units; none of what is negative or not a number. (Rounding down is a call of a function
 // where a processor need not have more than SSE2, and a conversion is none.)
@@ -51,97 +39,11 @@ int floorNear(float place, int size) {
     return static_cast<int>(bounded + static_cast<float>(kAway)) - kAway;
 }
 
-struct Triangle {
-    vec2 a, b, c;
-    vec3 slopes;
-    float area;
-};
-
-float slopeOf(const vec2& side) {
-    return side.y != 0.0f ? side.x / side.y : 0.0f;
-}
-
-Triangle triangleOf(vec2 a, vec2 b, vec2 c) {
-    const vec2 ab = b - a, bc = c - b, ca = a - c;
-    const vec3 sides(glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca));
-    const float longest = std::max({sides.x, sides.y, sides.z});
-    float twice = ab.x * bc.y - ab.y * bc.x;
-    float sign = twice < 0.0f ? -1.0f : 1.0f;
-    if (std::abs(twice) < kMinHeight * std::sqrt(longest)) {
-        if (longest < kMinHeight * kMinHeight) {
-            const vec2 middle = (a + b + c) / 3.0f;
-            a = middle + kMinHeight * vec2(-1.0f, -0.5f);
-            b = middle + kMinHeight * vec2(1.0f, -0.5f);
-            c = middle + kMinHeight * vec2(0.0f, 1.0f);
-            sign = 1.0f;
-        } else {
-            const float one = 1.0f / std::sqrt(longest);
-            const float lift = (sign * kMinHeight - twice * one) * one;
-            if (longest == sides.x) {
-                c += lift * vec2(-ab.y, ab.x);
-            } else if (longest == sides.y) {
-                a += lift * vec2(-bc.y, bc.x);
-            } else {
-                b += lift * vec2(-ca.y, ca.x);
-            }
-        }
-        twice = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
-    }
-    if (twice == 0.0f) twice = sign * kMinHeight * kMinHeight;
-    return {a, b, c, {slopeOf(b - a), slopeOf(c - b), slopeOf(a - c)}, 0.5f * twice};
-}
-
-float clampedIntegral(float x) {
-    const float inside = std::clamp(x, 0.0f, 1.0f);
-    return 0.5f * inside * inside + std::max(x - 1.0f, 0.0f);
-}
-
-inline float sideCoverage(const vec2& from, const vec2& to, float slope) {
-    const float low = std::clamp(from.y, 0.0f, 1.0f);
-    const float high = std::clamp(to.y, 0.0f, 1.0f);
-    const float rise = high - low;
-    if (rise == 0.0f || std::max(from.x, to.x) <= 0.0f) return 0.0f;
-    if (std::min(from.x, to.x) >= 1.0f) return rise;
-    const float first = from.x + (low - from.y) * slope;
-    const float last = from.x + (high - from.y) * slope;
-    const float run = last - first;
-    const float mean = std::abs(run) < 1e-3f
-                           ? std::clamp(0.5f * (first + last), 0.0f, 1.0f)
-                           : (clampedIntegral(last) - clampedIntegral(first)) / run;
-    return rise * mean;
-}
-
-// Of the square with this lower left corner whose side is 1 over `scale`, as a share of it.
-inline float coverageOf(const Triangle& triangle, const vec2& corner, float scale) {
-    const vec2 a = scale * (triangle.a - corner);
-    const vec2 b = scale * (triangle.b - corner);
-    const vec2 c = scale * (triangle.c - corner);
-    const float sum = sideCoverage(a, b, triangle.slopes.x) +
-                      sideCoverage(b, c, triangle.slopes.y) + sideCoverage(c, a, triangle.slopes.z);
-    return std::max(triangle.area < 0.0f ? -sum : sum, 0.0f);
-}
-
-void addToSpan(vec2& span, vec2 bottom, vec2 top, float low, float high) {
-    if (bottom.y >= top.y) std::swap(bottom, top);
-    if (top.y < low || bottom.y > high) return;
-    const float rise = top.y - bottom.y;
-    const float run = top.x - bottom.x;
-    const float first = rise > 0.0f ? std::clamp((low - bottom.y) / rise, 0.0f, 1.0f) : 0.0f;
-    const float last = rise > 0.0f ? std::clamp((high - bottom.y) / rise, 0.0f, 1.0f) : 1.0f;
-    const float from = bottom.x + first * run, to = bottom.x + last * run;
-    span = {std::min(span.x, std::min(from, to)), std::max(span.y, std::max(from, to))};
-}
-
-struct Side {
-    vec3 normal, direction;
-    bool isFromBehind;
-};
-
 struct Patch {
     vec3 corners[4];
     float densities[4];
     float first;
-    Side side;
+    PatchSide side;
     vec3 flux;
     float tolerance;
     bool isJoined, isAlone;
@@ -164,7 +66,7 @@ Patch unpacked(const PatchData& data) {
 }
 
 struct PatchTriangle {
-    Triangle onScreen;
+    ScreenTriangle onScreen;
     vec3 weightsX, weightsY, weightsBegin, changes;
     vec3 plane, middle;
     float perArea;
@@ -233,9 +135,9 @@ class Coverer {
     void addSeen(PlanePixel& pixel, const vec2& place, const SeenPixels::Receiver& seen,
                  const PatchTriangle& of, const Patch& whole, bool isAway, float share,
                  float storedArea) const;
-    // Where `at` is null that is looked at which lies in the square's middle.
+    // Of the square with this lower left corner, by what is seen at one place in it.
     void addPlace(PlanePixel& sum, const PatchOnScreen& onto, const Patch& whole,
-                  const vec2& corner, float square, const vec2& inSquare,
+                  const vec2& corner, float square, const vec2& place,
                   const SeenPixels::Receiver& seen, bool isAtEdge, float storedArea) const;
     [[nodiscard]] PlanePixel partIn(const ivec2& pixel, const PatchOnScreen& onto,
                                     const Patch& whole) const;
@@ -266,7 +168,7 @@ PatchTriangle Coverer::patchTriangle(const Patch& whole, const int (&corners)[3]
     PatchTriangle made;
     made.onScreen =
         triangleOf(places[corners[0]] - base, places[corners[1]] - base, places[corners[2]] - base);
-    const Triangle& at = made.onScreen;
+    const ScreenTriangle& at = made.onScreen;
     const vec3 x(at.b.y - at.c.y, at.c.y - at.a.y, at.a.y - at.b.y);
     const vec3 y(at.c.x - at.b.x, at.a.x - at.c.x, at.b.x - at.a.x);
     const vec3 begin = -x * vec3(at.b.x, at.c.x, at.a.x) - y * vec3(at.b.y, at.c.y, at.a.y);
@@ -325,32 +227,19 @@ PatchOnScreen Coverer::onScreen(const Patch& whole) const {
 // The first and the last pixel between two heights that can be covered, before they are held to the
 // rectangle; none where x > y.
 ivec2 Coverer::spanOf(const PatchOnScreen& onto, float bottom, float top) const {
-    const float low = bottom - onto.base.y, high = top - onto.base.y;
+    const vec2 heights = vec2(bottom, top) - onto.base.y;
     vec2 span(1e9f, -1e9f);
-    for (const PatchTriangle& triangle : onto.triangles) {
-        const Triangle& at = triangle.onScreen;
-        addToSpan(span, at.a, at.b, low, high);
-        addToSpan(span, at.b, at.c, low, high);
-        addToSpan(span, at.c, at.a, low, high);
-    }
+    for (const PatchTriangle& triangle : onto.triangles)
+        span = spanWith(span, triangle.onScreen, heights);
     if (!(span.x <= span.y)) return {1, 0};
     const int width = pixels_.size().x;
     return {std::max(floorNear(span.x + onto.base.x, width), onto.low.x),
             std::min(floorNear(span.y + onto.base.x, width), onto.high.x)};
 }
 
-bool seesLitSide(const vec3& position, const Side& side) {
+bool seesLitSide(const vec3& position, const PatchSide& side) {
     const bool seesFront = glm::dot(side.normal, position) < 0.0f;
     return seesFront == (glm::dot(side.normal, side.direction) < 0.0f);
-}
-
-float litShare(const vec3& seenNormal, const vec3& plane, bool isShaded, const Side& side) {
-    const float cosine = glm::dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0f : -1.0f);
-    if (cosine <= 0.0f) return 0.0f;
-    if (isShaded) return 1.0f;
-    const float slant = std::abs(glm::dot(plane, side.direction));
-    const float least = std::max(kMinLitSlant - slant, 0.0f);
-    return (cosine + least) / (slant + least);
 }
 
 float boundedSlant(float slant, float minimum) {
@@ -556,9 +445,6 @@ void Coverer::depositNear(const Patch& whole) {
     book(whole.isJoined ? kSumTriangles : kSumBeams, whole.flux);
 }
 
-// A beam that covers no more pixels than this goes to each of them, not to squares.
-constexpr int kMaxPixelsOfNarrow = 100;
-
 void Coverer::cover(const Patch& whole) {
     for (const vec3& corner : whole.corners) {
         if (!(-corner.z > pixels_.nearMeters())) return book(kAccountBehindEye, whole.flux);
@@ -591,63 +477,6 @@ void Coverer::cover(const Patch& whole) {
 }
 
 }  // namespace
-
-float SeenPixels::depthMargin(const vec3& ray, float depth, const vec3& normal) const {
-    const float footprint = footprint_ * depth;
-    const float slope = (std::abs(normal.x) + std::abs(normal.y)) /
-                        std::max(std::abs(glm::dot(normal, ray)), 1e-4f);
-    return footprint * (1.0f + 0.5f * std::min(slope, kMaxSlope));
-}
-
-float SeenPixels::pixelArea(const vec3& ray, float depth, const vec3& normal) const {
-    const float side = footprint_ * depth;
-    return side * side / std::max(std::abs(glm::dot(normal, ray)), 1e-4f);
-}
-
-SeenPixels::Receiver SeenPixels::receiver(const vec2& place, float depth, float area,
-                                          const vec3& normal) const {
-    return {normal, depth, area, depthMargin(ray(place), std::abs(depth), normal)};
-}
-
-void SeenPixels::look(const render::RasterView& view, const Textures& textures,
-                      std::span<const PixelBlock> blocks) {
-    size_ = {view.width, view.height};
-    blocksOfRow_ = (size_.x + kPixelBlockSide - 1) / kPixelBlockSide;
-    halfExtent_ = vec2(view.halfExtent);
-    toRay_ = 2.0f * halfExtent_ / vec2(size_);
-    near_ = static_cast<float>(view.nearMeters);
-    footprint_ = static_cast<float>(view.footprintPerMeter());
-    pixels_.resize(textures.receiver.size());
-    std::uint32_t numbers = 0;
-    for (const glm::vec4& seen : textures.receiver)
-        numbers =
-            std::max(numbers, textures.samples.empty() ? 0u : static_cast<std::uint32_t>(seen.z));
-    samples_.resize(static_cast<std::size_t>(numbers) * kEdgeSamples);
-    blocks_.resize(blocks.size());
-    tbb::parallel_for(0, size_.y, [&](int y) {
-        for (int x = 0; x < size_.x; ++x) {
-            const std::size_t index = indexOf({x, y});
-            const glm::vec4& seen = textures.receiver[index];
-            Pixel& pixel = pixels_[index];
-            const vec2 corner(x, y);
-            pixel.middle = receiver(corner + 0.5f, seen.x, seen.y, vec3(textures.surface[index]));
-            pixel.number = textures.samples.empty() ? 0u : static_cast<std::uint32_t>(seen.z);
-            for (std::size_t i = 0; pixel.number > 0 && i < kEdgeSamples; ++i) {
-                const std::size_t at = (pixel.number - 1) * kEdgeSamples + i;
-                const glm::vec4& sample = textures.samples[at];
-                samples_[at] = receiver(corner + edgePlace(static_cast<int>(i)), sample.x, sample.y,
-                                        unpackUnitVector({sample.z, sample.w}));
-            }
-        }
-    });
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        const glm::vec4& seen = blocks[i].receiver;
-        const auto row = static_cast<std::size_t>(blocksOfRow_);
-        const vec2 middle = static_cast<float>(kPixelBlockSide) * (vec2(i % row, i / row) + 0.5f);
-        blocks_[i] = {receiver(middle, seen.x, seen.y, unpackUnitVector({seen.z, seen.w})),
-                      seen.y < 0.0f};
-    }
-}
 
 void coverPatches(std::span<const PatchData> patches, const SeenPixels& pixels,
                   TriangleShading shading, const PatchSums& sums, LedgerSums& ledger) {

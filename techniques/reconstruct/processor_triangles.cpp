@@ -55,7 +55,8 @@ void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed, Tria
                 listed.make(kind, static_cast<int>(begins[kind] - first));
         }
         const auto patches =
-            context.buffer(listed.made).readFirst<PatchData>(static_cast<std::size_t>(end - first));
+            context.buffer(listed.made)
+                .readFirst<transport::PatchData>(static_cast<std::size_t>(end - first));
         coverPatches(patches, pixels.seen, shading,
                      {pixels.sums, pixels.blocks, 1.0f / quantumWatts}, all);
     }

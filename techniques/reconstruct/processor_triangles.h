@@ -29,8 +29,8 @@ void clearPixels(ProcessorPixels& pixels, const render::RasterView& eye, const S
 struct ListedPatches {
     const graph::Buffer<std::uint32_t>& lists;  // begins with a ThreadListHeader a kind
     std::size_t kinds;
-    const graph::Buffer<PatchData>& made;  // where they are to stand
-    std::size_t room;                      // for so many at once
+    const graph::Buffer<transport::PatchData>& made;  // where they are to stand
+    std::size_t room;                                 // for so many at once
     // Has the shaders write those of a kind, the first one to this place, which may lie before the
     // first that there is room for.
     std::function<void(std::size_t kind, int firstPlace)> make;

@@ -17,7 +17,7 @@
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/reconstruct/edge_samples.h"
-#include "techniques/reconstruct/patches.h"
+#include "techniques/reconstruct/pixel_block.h"
 #include "techniques/reconstruct/triangles.h"
 #include "techniques/reconstruct/triangles_joins.h"
 #include "techniques/reconstruct/triangles_pixel_blocks.h"
@@ -104,7 +104,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
         TriangleJoins joins;
         graph::Buffer<VertexShares> shares;
         graph::Buffer<std::uint32_t> patches;  // counts, and a list
-        graph::Buffer<PatchData> wide;
+        graph::Buffer<transport::PatchData> wide;
         graph::Buffer<PatchBlock> blocks;  // where any are merged
         graph::Buffer<transport::Clamped> clamped;
     };

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "framework/gl/executor.h"
-#include "techniques/reconstruct/patches.h"
+#include "techniques/reconstruct/pixel_block.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "techniques/reconstruct/processor_triangles.h"
 #endif
@@ -15,7 +15,9 @@ namespace kaustik {
 namespace {
 
 int pixelBlockCount(const Views& views) {
-    const auto along = [](int pixels) { return (pixels + kPixelBlockSide - 1) / kPixelBlockSide; };
+    const auto along = [](int pixels) {
+        return (pixels + transport::kPixelBlockSide - 1) / transport::kPixelBlockSide;
+    };
     return along(views->width()) * along(views->height());
 }
 

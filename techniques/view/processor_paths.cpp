@@ -235,7 +235,7 @@ class Follower {
         const glm::dvec3 normal = eye_.direction(hit.geometricNormal);
         const bool isFront = glm::dot(direction, hit.geometricNormal) < 0.0;
         const std::optional<glm::dvec2> place = pixelOf(eye_.view(), position);
-        if (!place || isFront != glm::dot(position, normal) < 0.0) return false;
+        if (!place || isFront != (glm::dot(position, normal) < 0.0)) return false;
         const glm::dvec2 pixel = glm::floor(*place);
         const glm::dvec2 size(eye_.view().width, eye_.view().height);
         const bool isOnScreen = -position.z > 1.001 * eye_.view().nearMeters &&

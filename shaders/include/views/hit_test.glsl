@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whether a step of a photon's ray hits a surface of the layered depth. All tracers ask here.
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/views/ray_segment.glsl"
 #include "include/surfaces/side_rule.glsl"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a ray of the eye meets first, and what it sees where that is not specular.
 #include "include/views/first_surface.glsl"
-#include "include/views/octahedral.glsl"
+#include "framework/transport/octahedral.h"
 #include "include/views/view.glsl"
 
 // What the eye's ray sees that meets no specular surface: the receiver at the pixel's middle, unless

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // coverageOf for a list of cases: two corners; the third one and the pixel's lower left corner.
 // Out: what of the pixel is covered, and the triangle that was taken.
-#include "include/maps/coverage.glsl"
+#include "framework/transport/coverage.h"
 
 layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {
@@ -17,8 +17,8 @@ void main() {
     if (i >= caseCount) return;
     vec4 ab = inputs[2 * i];
     vec4 c = inputs[2 * i + 1];
-    Triangle triangle = triangleOf(ab.xy, ab.zw, c.xy);
-    outputs[3 * i] = vec4(coverageOf(triangle, c.zw), triangle.area, 0.0, 0.0);
+    ScreenTriangle triangle = triangleOf(ab.xy, ab.zw, c.xy);
+    outputs[3 * i] = vec4(coverageOf(triangle, c.zw, 1.0), triangle.area, 0.0, 0.0);
     outputs[3 * i + 1] = vec4(triangle.a, triangle.b);
     outputs[3 * i + 2] = vec4(triangle.c, 0.0, 0.0);
 }

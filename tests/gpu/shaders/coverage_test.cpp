@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How much of a pixel a triangle covers (shaders/include/maps/coverage.glsl), against a polygon
-// that is clipped to the pixel in double precision.
+// How much of a pixel a triangle covers (framework/transport/coverage.h), against a polygon
+// that is clipped to the pixel in double precision: as a shader finds it, and as the processor
+// does.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
 
 #include "framework/numerics/probe.h"
+#include "framework/transport/coverage.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -15,8 +17,7 @@ namespace {
 using glm::dvec2;
 using glm::vec2;
 using glm::vec4;
-
-constexpr double kMinHeight = 1.0 / 64.0;  // px, as in the shader
+using transport::kMinHeight;
 
 using Corners = std::array<vec2, 3>;
 
@@ -63,6 +64,7 @@ double longestSide(const Corners& t) {
 
 struct Coverage {
     double worst = 0.0;       // of a pixel, px²
+    double between = 0.0;     // what a shader finds of a pixel and what the processor does, px²
     double worstSum = 0.0;    // of all pixels of a triangle, as a share of its area
     double farthest = 0.0;    // that a corner was moved, px
     std::size_t moved = 0;    // triangles
@@ -104,6 +106,10 @@ Coverage coverageOf(const std::vector<Corners>& triangles) {
         const vec2 corner(inputs[2 * i + 1].z, inputs[2 * i + 1].w);
         const double exact = std::abs(clippedArea(taken, dvec2(corner)));
         found.worst = std::max(found.worst, std::abs(double{first.x} - exact));
+        const Corners& own = triangles[triangle];
+        const float byProcessor =
+            transport::coverageOf(transport::triangleOf(own[0], own[1], own[2]), corner, 1.0f);
+        found.between = std::max(found.between, std::abs(double{first.x} - double{byProcessor}));
         found.covered += exact > 0.0 ? 1u : 0u;
         if (sums[triangle] == 0.0 && areas[triangle] == 0.0 && moved > 0.0) ++found.moved;
         sums[triangle] += double{first.x};
@@ -149,6 +155,7 @@ TEST_F(Coverages, AreExactWhateverTheSizeAndTheOrientation) {
     // Corners lie some 1e-6 px next to themselves in float; a side is at most 1.4 px long in a
     // pixel.
     EXPECT_LT(found.worst, 2e-5);
+    EXPECT_LT(found.between, 1e-5);
     EXPECT_LT(found.worstSum, 1e-3);
 }
 
@@ -160,6 +167,7 @@ TEST_F(Coverages, OfHugeTrianglesAddUp) {
     EXPECT_GT(found.covered, 20000u);
     // The same at 400 px.
     EXPECT_LT(found.worst, 1e-4);
+    EXPECT_LT(found.between, 5e-5);
     EXPECT_LT(found.worstSum, 1e-5);
 }
 
@@ -181,6 +189,7 @@ TEST_F(Coverages, OfSliversAndPointsAddUpToWhatTheyAreTakenAs) {
     // No corner leaves its place by more than what is resolved, twice that of a point's.
     EXPECT_LT(found.farthest, 2.0 * kMinHeight);
     EXPECT_LT(found.worst, 1e-5);
+    EXPECT_LT(found.between, 1e-5);
     EXPECT_LT(found.worstSum, 5e-3);
 }
 
