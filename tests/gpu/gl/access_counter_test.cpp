@@ -40,7 +40,7 @@ class CountedAccesses : public ::testing::Test {
     static constexpr int kThings = 1024;
 
     void SetUp() override {
-        context();
+        static_cast<void>(context());
         folder_ = fs::temp_directory_path() / ("kaustik-counted-" + std::to_string(::getpid()));
         fs::create_directories(folder_);
     }

@@ -187,7 +187,9 @@ TEST_F(SteadyFrames, AreTheSameWhetherOrNotTheirProgramsWereListedBetween) {
         gl::PassTimer timer(gl::TimerMode::finish);
         for (int frame = 0; frame < 3; ++frame) {
             renderer.build(Purpose::picture);
-            if (lists) EXPECT_GT(renderer.listPrograms().size(), 10u);
+            if (lists) {
+                EXPECT_GT(renderer.listPrograms().size(), 10u);
+            }
             renderer.renderFrame(timer);
         }
         return renderer.texture(renderer.outputs().picture.radiance).read();

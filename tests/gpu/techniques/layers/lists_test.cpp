@@ -386,7 +386,7 @@ using MakeViews = std::function<Views(FrameBuilder&)>;
 Registry elsewhere(const MakeViews& makeViews, int mebibytes) {
     Registry registry = registerAll();
     registry.node<LayersStage>(
-        "elsewhere", {"In other views.", "a test"},
+        "elsewhere", {"In other views.", "a test", ""},
         std::function([=](FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
             LayersRequest request{.name = "layers", .layers = 6};
             request.views = makeViews(frame);

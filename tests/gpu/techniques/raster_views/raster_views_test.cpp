@@ -37,7 +37,7 @@ Views cubeViews(FrameBuilder& frame, const glm::dvec3& center, int side) {
 Registry tracingIn(const MakeViews& makeViews, const std::string& tracer) {
     Registry registry = registerAll();
     registry.node<LayersStage>(
-        "elsewhere", {"In other views.", "a test"},
+        "elsewhere", {"In other views.", "a test", ""},
         std::function([makeViews](FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
             LayersRequest request{.name = "layers", .layers = 12};
             request.views = makeViews(frame);
@@ -55,7 +55,7 @@ Registry tracingIn(const MakeViews& makeViews, const std::string& tracer) {
 Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
     Registry registry = registerAll();
     registry.node<ReconstructStage>(
-        "elsewhere", {"In other views.", "a test"},
+        "elsewhere", {"In other views.", "a test", ""},
         std::function([makeViews](FrameBuilder& frame, const SpritesParams& params, Hits hits,
                                   Surfaces surfaces, CausticMap before) {
             const auto seen = frame.once<ReceiverView>("receivers elsewhere", [&] {
@@ -70,7 +70,7 @@ Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
             return CausticMap{{stored.map}, stored.ledger};
         }));
     registry.node<GatherStage>(
-        "elsewhere", {"By projection.", "a test"},
+        "elsewhere", {"By projection.", "a test", ""},
         std::function([](FrameBuilder& frame, const params::NoParams&, CausticMap map,
                          Surfaces surfaces) {
             const FluxMap& stored = map.maps.front();

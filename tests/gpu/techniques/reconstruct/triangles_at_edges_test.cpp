@@ -239,9 +239,9 @@ INSTANTIATE_TEST_SUITE_P(A, TrianglesAtEdgesOf,
                          testing::Values(Shown{"samples", false, false},
                                          Shown{"samples", false, true},
                                          Shown{"samples", true, false}),
-                         [](const testing::TestParamInfo<Shown>& info) {
-                             return std::string(info.param.isGlossy ? "Glossy" : "Grey") +
-                                    (info.param.asOnGpu ? "BoxAsOnAGpu" : "Box");
+                         [](const testing::TestParamInfo<Shown>& shown) {
+                             return std::string(shown.param.isGlossy ? "Glossy" : "Grey") +
+                                    (shown.param.asOnGpu ? "BoxAsOnAGpu" : "Box");
                          });
 
 TEST(TrianglesAtEdges, KeepTheLedgerClosed) {

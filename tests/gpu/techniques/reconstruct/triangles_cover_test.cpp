@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: the same light in each pixel, and the same ledger, whether the device or
 // the processor covers them.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -125,6 +126,32 @@ TEST_F(TrianglesCover, IsTheSameToTheBitTwice) {
             .irradiance.values;
     };
     EXPECT_EQ(once(), once());
+}
+
+// What is switched off leaves no light, nor that of the frame before.
+TEST_F(TrianglesCover, ThatIsOffLeavesNoLight) {
+    const Registry registry = registerAll();
+    const scene::Scene scene = numerics::makeScene(kCamera, kSun + kFloor + kWaves);
+    RenderSettings settings;
+    settings.technique = registry.findTechnique("exact_rays");
+    settings.params = registry.makeParams(settings.technique);
+    settings.params.set("emit.photons", "64x64", "test");
+    settings.params.set("reconstruct.triangles.cover", "processor", "test");
+    settings.width = 120;
+    settings.height = 90;
+    Renderer renderer(context(), registry, scene, settings);
+    const auto brightest = [&] {
+        renderer.build(Purpose::measurement);
+        gl::PassTimer timer(gl::TimerMode::finish);
+        EXPECT_TRUE(renderer.renderFrame(timer));
+        const std::vector<float> values =
+            renderer.texture(renderer.graph().find("caustic.irradiance")).read();
+        return *std::max_element(values.begin(), values.end());
+    };
+    EXPECT_GT(brightest(), 0.0f);
+    settings.disabledPasses = {"reconstruct.triangles"};
+    renderer.update(settings);
+    EXPECT_EQ(brightest(), 0.0f);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ inline constexpr std::uint64_t kSeedOfNaN = 13;
 inline Registry registryWithPattern(const glm::dvec3& origin) {
     Registry registry = registerAll();
     registry.node<GatherStage>(
-        "pattern", {"A closed form.", "a test"},
+        "pattern", {"A closed form.", "a test", ""},
         std::function([origin](FrameBuilder& frame, const params::NoParams&, CausticMap map,
                                Surfaces surfaces) {
             return frame.pass<IrradianceMap>(
