@@ -117,7 +117,9 @@ def main() -> None:
         maker.require()
     device = processor(options.threads)
     missing = wanted(scenes, options.photons, rows, device, maker.tree.key_without_technique if options.anew else None)
-    others = {row["device"] for row in rows if row.get("device") and identity(row) not in {tuple(map(str, one)) for one in missing}} - {device}
+    # Of the scenes that are measured now: another's rows may be of another machine, all of them.
+    measured, replaced = {scene for scene, *_ in missing}, {tuple(map(str, one)) for one in missing}
+    others = {row["device"] for row in rows if row.get("device") and row["scene"] in measured and identity(row) not in replaced} - {device}
     if missing and others:
         sys.exit(f"light_tracer: '{options.out}' has times of {' and '.join(sorted(others))}, and this is {device}: what a photon costs is a difference of rows. "
                  "Make all anew, or another file")

@@ -5,8 +5,8 @@
     speed_error.py [--results results/all_techniques] [--in-turn results/all_techniques/in_turn.csv] [--elsewhere results/all_techniques/in_turn_xeon.csv]
 
 Reads runs.csv (all_techniques.toml, by table.py --csv), light_tracer.csv (light_tracer.py) and, where it is there, best_mixtures.csv
-(best_mixtures.toml; its runs are called "best mixture") in that folder, all of one machine (another
-has a folder of its own; pages.py puts tables of several next to each other), and writes next to them
+(best_mixtures.toml; its runs are called "best mixture") in that folder, all of a scene of one machine: the study is long, and may be made scene by scene
+where there is time for it. Mixtures and light tracers of another machine than the scene's runs are left out, which is said. Writes next to them
 
 - equal_error.csv: each run, and how many photons and ms the light tracer needs for the same relMSE; `factor` is by how much the run is
   faster, `low` and `high` its interval of one standard deviation (speed_curves.py says what it is made of). Both errors are net of the reference's own noise. The light
@@ -19,11 +19,11 @@ has a folder of its own; pages.py puts tables of several next to each other), an
 - in_time.csv: the same the other way round: the least error within a time. `at_most`: its run with the most photons takes less.
 - one_second.csv: for each scene the error that the light tracer has after one second, and whether and when the default has it with as many photons as it likes; `part`: the default's least error over that one.
 - photon_mapping.csv: the default's runs, and how long progressive photon mapping takes to their error; `bound`: its runs end before (`≥`).
-- uncertainty.csv: what the intervals are made of, and the times of the study over those in turn, whose file is --in-turn; where that is of another device the intervals are without it.
+- uncertainty.csv: what the intervals are made of, and the times of the study over those in turn (--in-turn, --elsewhere), of each scene on the machine of its runs.
 - goals.csv: what the goal was set for, the default at least three times as fast on ten of its thirteen scenes and ten times in the median, by the study and in turn (--in-turn). Scenes that have no
   row are named; the median then lies within `median least` and `median most`, whatever they have.
 - costs.csv: what a photon costs each technique, and what all of them together do: the median over scenes of the slope between its runs with the
-  fewest and the most photons, of time (also the least and the most) and memory, and of what is left at none; and the light that it does not form, on the scene where
+  fewest and the most photons, of time (also the least and the most) and memory, and of what is left at none, of scenes of the machine that most are of; and the light that it does not form, on the scene where
   that is most.
 - published.csv: what defaults change of each technique as published, with as many photons: the default's time and error as parts of the
   published ones and the gain in `factor`, medians over scenes with the least and the largest, and the scenes of these gains.
@@ -265,9 +265,24 @@ def draw_headline(middle: dict[str, dict[str, dict]], file: pathlib.Path) -> Non
     plt.close(figure)
 
 
+def is_same(device: str, other: str) -> bool:
+    """Whether times of both can be compared: of a renderer on a processor, and of that processor alone."""
+    return device == other or device.endswith(f", {other}")
+
+
+def of_most_scenes(runs: list[dict]) -> list[dict]:
+    """The runs of the machine that most scenes are of, since times of several have no median."""
+    scenes = defaultdict(set)
+    for row in runs:
+        if row["status"] == "done":
+            scenes[device_of(row)].add(row["scene"])
+    most = max(sorted(scenes), key=lambda device: len(scenes[device]), default="")
+    return [row for row in runs if row["status"] == "done" and device_of(row) == most]
+
+
 def costs(runs: list[dict]) -> list[list]:
     by = defaultdict(lambda: defaultdict(list))
-    for row in runs:
+    for row in of_most_scenes(runs):
         if row["status"] == "done" and number(row, "emitted") and number(row, "ms"):
             by[row["technique"], row["as_published"]][row["scene"]].append(row)
     table = []
@@ -362,8 +377,18 @@ def main() -> int:
     arguments = parser.parse_args()
     folder = arguments.results
     runs = rows_of(folder / "runs.csv")
+    require_one_device([row for row in runs if row["status"] == "done"], folder, a_scene=True)
+    devices = {row["scene"]: device_of(row) for row in runs if row["status"] == "done"}
+
+    def of_its_scene(rows: list[dict], called: str) -> list[dict]:
+        """Those of the machine that their scene's runs are of."""
+        found = [row for row in rows if row["scene"] not in devices or not row.get("device") or is_same(devices[row["scene"]], device_of(row))]
+        if left := sorted({row["scene"] for row in rows} - {row["scene"] for row in found}):
+            print(f"speed_error: of {', '.join(left)} {called} of another machine than the runs, and left out", file=sys.stderr)
+        return found
+
     if (folder / "best_mixtures.csv").is_file():
-        runs += [row | {"technique": MIXTURE, "as_published": "false"} for row in rows_of(folder / "best_mixtures.csv")]
+        runs += [row | {"technique": MIXTURE, "as_published": "false"} for row in of_its_scene(rows_of(folder / "best_mixtures.csv"), "the mixtures are")]
     # A light tracer into the pixels has no light in a medium either. Where there is one, rows of before its time was told apart can't be
     # compared.
     with_medium = {row["scene"] for row in runs if number(row, "media ms")}
@@ -371,11 +396,9 @@ def main() -> int:
     for row in runs:
         if number(row, "ms") and number(row, "media ms"):
             row["ms"] = str(number(row, "ms") - number(row, "media ms"))
-    require_one_device([row for row in runs if row["status"] == "done"], folder)
-    baselines = rows_of(folder / "light_tracer.csv")
-    devices = {device_of(row) for row in runs if row["status"] == "done"}
-    in_turn = rows_of(arguments.in_turn) if arguments.in_turn.is_file() else []
-    in_turn = [row for row in in_turn if device_of(row) in devices]
+    baselines = of_its_scene(rows_of(folder / "light_tracer.csv"), "the light tracer is")
+    of_hours = [rows_of(file) if file.is_file() else [] for file in (arguments.in_turn, arguments.elsewhere)]
+    in_turn = [row for rows in of_hours for row in rows if device_of(row) == devices.get(row["scene"])]
     spreads, tracers = Spreads(runs, baselines, in_turn), light_tracers(baselines)
     of_scenes = points_of(runs, baselines, spreads)
     equal = equal_error(runs, tracers, spreads)
@@ -391,8 +414,8 @@ def main() -> int:
     for name, keys, table in (("answers.csv", ANSWERS, answered), ("photon_mapping.csv", MAPPING, mapping), ("one_second.csv", ONE_SECOND, one_second(equal, tracers, of_scenes, spreads))):
         write_table(name, list(keys), [[row[key] for key in keys] for row in table])
     write_table("summary.csv", SUMMARY, summary(answered, mapping, equal))
-    elsewhere = rows_of(arguments.elsewhere) if arguments.elsewhere.is_file() else []
-    write(folder / "goals.csv", [*GOALS, *OF_THE_RUNS], [*(row + of_the_runs(runs) for row in goals(answered, in_turn)),
+    own, elsewhere = of_hours
+    write(folder / "goals.csv", [*GOALS, *OF_THE_RUNS], [*(row + of_the_runs(runs) for row in goals(answered, own)),
                                                          *(row + of_the_runs(elsewhere) for row in goals([], elsewhere, "in turn, another processor"))])
     write_table("uncertainty.csv", UNCERTAINTY, uncertainty(spreads))
     write_table("costs.csv", ["technique", "as_published", "status", "scenes", "ns a photon", "least ns a photon", "most ns a photon", "ms at none", "bytes a photon", "MiB at none",

@@ -62,14 +62,21 @@ def device_of(row: dict) -> str:
     return ", ".join(str(part) for part in parts if part)
 
 
-def require_one_device(rows: list[dict], results: Path) -> None:
-    """For tables that compare times of all rows; ends the program where they are of several models."""
-    devices = sorted({device_of(row) for row in rows})
-    if len(devices) > 1:
-        sys.exit(
-            f"{results} holds times of {len(devices)} models of devices, which cannot be compared: "
-            f"{'; '.join(devices)}. 'kaustik experiment report' keeps them apart."
-        )
+def devices_of_scenes(rows: list[dict]) -> dict[str, list[str]]:
+    of: dict = {}
+    for row in rows:
+        of.setdefault(row["scene"], set()).add(device_of(row))
+    return {scene: sorted(devices) for scene, devices in of.items()}
+
+
+def require_one_device(rows: list[dict], results: Path, a_scene: bool = False) -> None:
+    """For tables that compare times of all rows, or (`a_scene`) of those of a scene; ends the program where they are of several models."""
+    for scene, devices in (devices_of_scenes(rows) if a_scene else {"": sorted({device_of(row) for row in rows})}).items():
+        if len(devices) > 1:
+            sys.exit(
+                f"{results} holds times{' of ' + scene if scene else ''} of {len(devices)} models of devices, which cannot be compared: "
+                f"{'; '.join(devices)}. 'kaustik experiment report' keeps them apart."
+            )
 
 
 @dataclass

@@ -85,6 +85,15 @@ class Rows(unittest.TestCase):
         self.assertEqual(self.file.read_text(), before)
         self.assertEqual({row["device"] for row in self.call("--anew")}, {"d, 2 threads"})
 
+    def test_of_another_scene_may_be_of_another_device(self):
+        self.file.write_text(OLD)
+        self.call()
+        before = self.file.read_text().replace("ring,", "tree,")
+        self.file.write_text(before)
+        self.device = "d, 2 threads"
+        self.assertEqual({row["device"] for row in self.call() if row["scene"] == "ring"}, {"d, 2 threads"})
+        self.assertIn("c, 2 threads", {row["device"] for row in self.call() if row["scene"] == "tree"})
+
     def test_say_how_busy_the_machine_was_with_other_work(self):
         load = light_tracer.Load()
         load.begin = (load.begin[0] - 3.0, load.begin[1] - 1.0, load.begin[2] - 2.0)

@@ -188,6 +188,58 @@ class Intervals(unittest.TestCase):
         self.assertEqual((self.folder / "uncertainty.csv").read_text(), before)
 
 
+class Machines(unittest.TestCase):
+    """A study whose scenes were made on two of them."""
+
+    RUNS = """scene,technique,as_published,emit.photons,refine.finest,status,emitted,ms,media ms,spread,relMSE,"relMSE, reference's own",device,version
+pond,planar,false,128x128,4096,done,1000,10,,0.1,0.04,,d,1
+pond,planar,false,256x256,4096,done,4000,40,,0.1,0.01,,d,1
+well,planar,false,128x128,4096,done,1000,10,,0.1,0.04,,d,1
+well,planar,false,256x256,4096,done,4000,40,,0.1,0.01,,d,1
+cave,planar,false,128x128,4096,done,1000,200,,0.1,0.002,,"l, e",1
+cave,planar,false,256x256,4096,done,4000,800,,0.1,0.001,,"{}",1
+"""
+
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.write("runs", self.RUNS.format("l, e"))
+        head, *rows = TRACED.format(0.02, 0.01, 0.005).splitlines()
+        self.write("light_tracer", "\n".join([head + ",device", *(row + (",d" if row.startswith("pond") else ",e") for row in rows)]) + "\n")
+        self.write("best_mixtures", MIXTURES)
+        self.write("turn", IN_TURN)
+
+    def write(self, name, text):
+        (self.folder / f"{name}.csv").write_text(text)
+
+    def run_program(self):
+        return subprocess.run([sys.executable, "-B", PROGRAM, "--tables", "--results", self.folder, "--in-turn", self.folder / "turn.csv"], capture_output=True, text=True)
+
+    def rows(self, name):
+        with (self.folder / f"{name}.csv").open(newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def test_of_one_scene_are_an_error_that_names_it(self):
+        self.write("runs", self.RUNS.format("d"))
+        done = self.run_program()
+        self.assertIn("times of cave of 2 models of devices", done.stderr)
+        self.assertEqual(done.returncode, 1)
+
+    def test_of_a_scene_each_are_told_apart_and_costs_are_those_of_most_scenes(self):
+        done = self.run_program()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual({row["scene"]: row["device"] for row in self.rows("equal_error")}, {"pond": "d", "cave": "l, e"})
+        planar, = (row for row in self.rows("costs") if row["technique"] == "planar")
+        self.assertEqual((planar["scenes"], planar["ns a photon"], planar["most ns a photon"]), ("2", "1e+04", "1e+04"))
+
+    def test_that_only_the_light_tracer_or_mixtures_are_of_leave_their_scene_without_a_factor(self):
+        self.write("runs", self.RUNS.format("other").replace(",d,1", ",other,1").replace('"l, e"', "other"))
+        done = self.run_program()
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("of pond the mixtures are of another machine than the runs, and left out", done.stderr)
+        self.assertIn("of cave, pond the light tracer is of another machine than the runs, and left out", done.stderr)
+        self.assertEqual(self.rows("equal_error"), [])
+
+
 class Goals(unittest.TestCase):
     """By thirteen scenes that were named beforehand."""
 
