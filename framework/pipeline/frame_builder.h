@@ -41,6 +41,8 @@ struct FrameInputs {
     bool isOnProcessor = false;
     // What nodes have made of the scene's meshes (FrameBuilder::onceForScene), by name.
     std::map<std::string, std::shared_ptr<void>>* ofScene = nullptr;
+    // Of the frame that is built: what the processor does in place of a shader adds to the ledger.
+    bool hasLedger = true;
 };
 
 // Issues a compute thread a photon of the list: shaders include include/photons/photon_thread.glsl.

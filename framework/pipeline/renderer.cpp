@@ -162,7 +162,8 @@ void Renderer::bindToAll(Purpose purpose) {
     std::vector<std::string> defines;
     if (scene::hasNormalMaps(scene_)) defines.emplace_back("NORMAL_MAPS");
     if (!scene_.bands.empty()) defines.emplace_back("BANDS");
-    if (purpose == Purpose::picture && !settings_.hasLedger) defines.emplace_back("NO_LEDGER");
+    inputs_.hasLedger = purpose != Purpose::picture || settings_.hasLedger;
+    if (!inputs_.hasLedger) defines.emplace_back("NO_LEDGER");
     executor_.bindToAll({{{"View", &viewBlock_}, {"Bands", &bands_}},
                          {{"Materials", &gpuScene_.materials()}, {"Lights", &lights_}},
                          {{"sceneImages", &gpuScene_.images()}},

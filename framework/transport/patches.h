@@ -43,6 +43,17 @@ const float kMaxStored = 100.0f;
 // away from it.
 const float kMinLitSlant = 0.05f;
 
+// Of its plane a triangle is taken for a line, and faces as the surface does, by these: twice its
+// area by the square of its sides; a cosine.
+const float kMinFlatness = 1e-3f;
+const float kMinPlaneCosine = 0.5f;
+// A triangle in space has at least this share of what it covers in the picture.
+const float kMinOfCovered = 0.25f;
+// Densities that differ by more are those of a fold, and say nothing of a triangle's middle.
+const float kMaxDensityRatio = 4.0f;
+// Where less than this is found of a patch, the rest lies beyond an edge.
+const float kMinFound = 0.5f;
+
 // How the surface lies, and from where light comes to it.
 struct PatchSide {
     vec3 normal;

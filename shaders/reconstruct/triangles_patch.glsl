@@ -61,21 +61,21 @@ PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities,
     float size = length(area);
     // A triangle that is nearly a line has no plane of its own.
     vec3 edges = abs(b - a) + abs(c - a);
-    bool isFlat = size > 1e-3 * dot(edges, edges);
+    bool isFlat = size > kMinFlatness * dot(edges, edges);
     made.plane = isFlat ? area / size : whole.side.normal;
     // One that hardly faces as the surface does is a fold of the light's.
-    if (abs(dot(made.plane, whole.side.normal)) < 0.5) made.plane = whole.side.normal;
+    if (abs(dot(made.plane, whole.side.normal)) < kMinPlaneCosine) made.plane = whole.side.normal;
     vec3 middle = (a + b + c) / 3.0;
     made.middle = middle;
     float covered = abs(made.onScreen.area) *
                     pixelArea(viewRay(pixelOf(middle)), -middle.z, made.plane);
-    made.perArea = part / max(isFlat ? max(0.5 * size, 0.25 * covered) : covered, 1e-30);
+    made.perArea = part / max(isFlat ? max(0.5 * size, kMinOfCovered * covered) : covered, 1e-30);
     // Where the densities differ too much, they are those of a fold and say nothing of its middle.
     float mean = (densities.x + densities.y + densities.z) / 3.0;
     float minimum = min(densities.x, min(densities.y, densities.z));
     float maximum = max(densities.x, max(densities.y, densities.z));
     bool isSmooth = reconstruct_triangles_shading == reconstruct_triangles_shading_smooth
-                        ? maximum <= 4.0 * minimum
+                        ? maximum <= kMaxDensityRatio * minimum
                         : reconstruct_triangles_shading == reconstruct_triangles_shading_vertices;
     isSmooth = isSmooth && mean > 0.0;
     made.densities = isSmooth ? densities / mean : vec3(1.0);

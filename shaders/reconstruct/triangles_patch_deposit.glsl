@@ -40,7 +40,7 @@ PatchBalance balanceOf(PatchParts parts, bool isWhole) {
     // then most of it is taken to lie beyond the edge, where the view does not see it. An edge through
     // the middle leaves half; of 0, 1/4, 1/2, 3/4 and 0.98 this had little error and kept the energy (0
     // and 0.98: relMSE of god-rays 0.0081 and 0.0015, energy 0.996 and 0.965).
-    float beyond = found > 0.0 ? max(0.5 - found, 0.0) : 0.0;
+    float beyond = found > 0.0 ? max(kMinFound - found, 0.0) : 0.0;
     return PatchBalance(parts.on, parts.occluded + beyond, outside, found + beyond);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Patches that cover many pixels, made once and kept for those who cover them.
+// Patches that are made once and kept for those who cover them: several threads, where they cover many
+// pixels, or the processor.
 #include "reconstruct/triangles_patch.glsl"
 #include "reconstruct/triangles_patch_list.glsl"
 

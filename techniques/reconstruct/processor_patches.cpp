@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "framework/transport/coverage.h"
+#include "framework/transport/seen.h"
 
 namespace kaustik {
 
@@ -107,8 +108,9 @@ struct PlanePixel {
     float lit = 0.0f, occluded = 0.0f, inView = 0.0f, stored = 0.0f;
 };
 
+// Of so many pixels that one sum in 32 bits would be wrong by parts in a thousand.
 struct PatchParts {
-    float on = 0.0f, occluded = 0.0f, inView = 0.0f;
+    double on = 0.0, occluded = 0.0, inView = 0.0, stored = 0.0;
 };
 
 // Where a patch has put a part of it: a pixel, or ~ a square of pixels.
@@ -120,8 +122,9 @@ struct KeptPlace {
 // Of one thread.
 class Coverer {
   public:
-    Coverer(const SeenPixels& pixels, TriangleShading shading, const PatchSums& sums)
-        : pixels_(pixels), shading_(shading), sums_(sums) {}
+    Coverer(const SeenPixels& pixels, TriangleShading shading, const PatchSums& sums,
+            bool booksLedger)
+        : pixels_(pixels), shading_(shading), sums_(sums), booksLedger_(booksLedger) {}
     void cover(const Patch& whole);
     [[nodiscard]] const LedgerSums& ledger() const { return ledger_; }
 
@@ -154,11 +157,11 @@ class Coverer {
     const SeenPixels& pixels_;
     TriangleShading shading_;
     PatchSums sums_;
+    bool booksLedger_;
     LedgerSums ledger_{};
     // Of the patch.
     std::vector<KeptPlace> kept_;
     PatchParts parts_;
-    float excess_ = 0.0f;
 };
 
 PatchTriangle Coverer::patchTriangle(const Patch& whole, const int (&corners)[3],
@@ -180,22 +183,23 @@ PatchTriangle Coverer::patchTriangle(const Patch& whole, const int (&corners)[3]
     const vec3 area = glm::cross(b - a, c - a);
     const float size = glm::length(area);
     const vec3 edges = glm::abs(b - a) + glm::abs(c - a);
-    const bool isFlat = size > 1e-3f * glm::dot(edges, edges);
+    const bool isFlat = size > kMinFlatness * glm::dot(edges, edges);
     made.plane = isFlat ? area / size : whole.side.normal;
-    if (std::abs(glm::dot(made.plane, whole.side.normal)) < 0.5f) made.plane = whole.side.normal;
+    if (std::abs(glm::dot(made.plane, whole.side.normal)) < kMinPlaneCosine)
+        made.plane = whole.side.normal;
     made.middle = (a + b + c) / 3.0f;
     const vec3 middleRay = pixels_.ray(pixels_.pixelOf(made.middle));
     const float covered =
         std::abs(at.area) * pixels_.pixelArea(middleRay, -made.middle.z, made.plane);
     made.perArea =
-        part / std::max(isFlat ? std::max(0.5f * size, 0.25f * covered) : covered, 1e-30f);
+        part / std::max(isFlat ? std::max(0.5f * size, kMinOfCovered * covered) : covered, 1e-30f);
     const vec3 densities(whole.densities[corners[0]], whole.densities[corners[1]],
                          whole.densities[corners[2]]);
     const float mean = (densities.x + densities.y + densities.z) / 3.0f;
     const float minimum = std::min({densities.x, densities.y, densities.z});
     const float maximum = std::max({densities.x, densities.y, densities.z});
     const bool isSmooth =
-        (shading_ == TriangleShading::smooth ? maximum <= 4.0f * minimum
+        (shading_ == TriangleShading::smooth ? maximum <= kMaxDensityRatio * minimum
                                              : shading_ == TriangleShading::vertices) &&
         mean > 0.0f;
     made.densities = isSmooth ? densities / mean : vec3(1.0f);
@@ -256,7 +260,6 @@ void Coverer::addSeen(PlanePixel& pixel, const vec2& place, const SeenPixels::Re
     const float tolerance =
         whole.tolerance + std::min(pixels_.depthMargin(ray, depth, of.plane), seen.margin);
     const float seenDepth = std::abs(seen.depth);
-    constexpr float kSameSide = 1e-4f;
     Where where = on;
     if (seenDepth == 0.0f) {
         where = outside;
@@ -311,10 +314,10 @@ PlanePixel Coverer::partIn(const ivec2& pixel, const PatchOnScreen& onto,
 }
 
 void Coverer::keep(std::int32_t place, const PlanePixel& sum) {
-    parts_.on += sum.lit;
-    parts_.occluded += sum.occluded;
-    parts_.inView += sum.inView;
-    excess_ += sum.stored - sum.lit;
+    parts_.on += double{sum.lit};
+    parts_.occluded += double{sum.occluded};
+    parts_.inView += double{sum.inView};
+    parts_.stored += double{sum.stored};
     if (sum.stored > 0.0f) kept_.push_back({place, sum.stored});
 }
 
@@ -372,6 +375,7 @@ void Coverer::deposit(std::int32_t place, const vec3& flux) const {
 }
 
 void Coverer::book(std::uint32_t account, const vec3& flux) {
+    if (!booksLedger_) return;
     const float watts = flux.r + flux.g + flux.b;
     if (!std::isfinite(watts) || watts < 0.0f) {
         ++ledger_[kAccountNotANumber].events;
@@ -452,26 +456,26 @@ void Coverer::cover(const Patch& whole) {
     const PatchOnScreen onto = onScreen(whole);
     kept_.clear();
     parts_ = {};
-    excess_ = 0.0f;
     const ivec2 size = glm::max(onto.high - onto.low + 1, 0);
     if (whole.isAlone && size.x * size.y > kMaxPixelsOfNarrow) {
         addToSquares(onto, whole);
     } else if (size.x > 0) {
         addToPixels(onto, whole);
     }
-    const float found =
-        parts_.on + parts_.occluded + (onto.isWhole ? 0.0f : std::max(1.0f - parts_.inView, 0.0f));
-    const float beyond = found > 0.0f ? std::max(0.5f - found, 0.0f) : 0.0f;
-    const float total = found + beyond;
-    if (!(total > 0.0f)) return depositNear(whole);
-    const vec3 flux = whole.flux / total;
-    const float outside = found - parts_.on - parts_.occluded;
-    if (parts_.on > 0.0f) book(whole.isJoined ? kSumTriangles : kSumBeams, flux * parts_.on);
-    if (parts_.occluded + beyond > 0.0f)
-        book(kAccountOccludedSplat, flux * (parts_.occluded + beyond));
-    if (!onto.isWhole && outside > 0.0f) book(kAccountOffScreen, flux * outside);
-    if (!(parts_.on > 0.0f)) return;
-    bookExcess(whole, excess_ / total);
+    const double outside = onto.isWhole ? 0.0 : std::max(1.0 - parts_.inView, 0.0);
+    const double found = parts_.on + parts_.occluded + outside;
+    const double beyond = found > 0.0 ? std::max(double{kMinFound} - found, 0.0) : 0.0;
+    const double total = found + beyond;
+    if (!(total > 0.0)) return depositNear(whole);
+    const auto share = [&](double part) { return static_cast<float>(part / total); };
+    const double hidden = parts_.occluded + beyond;
+    if (parts_.on > 0.0)
+        book(whole.isJoined ? kSumTriangles : kSumBeams, whole.flux * share(parts_.on));
+    if (hidden > 0.0) book(kAccountOccludedSplat, whole.flux * share(hidden));
+    if (outside > 0.0) book(kAccountOffScreen, whole.flux * share(outside));
+    if (!(parts_.on > 0.0)) return;
+    bookExcess(whole, share(parts_.stored - parts_.on));
+    const vec3 flux = whole.flux * share(1.0);
     for (const KeptPlace& place : kept_)
         deposit(place.place, flux * place.stored);
 }
@@ -479,9 +483,12 @@ void Coverer::cover(const Patch& whole) {
 }  // namespace
 
 void coverPatches(std::span<const PatchData> patches, const SeenPixels& pixels,
-                  TriangleShading shading, const PatchSums& sums, LedgerSums& ledger) {
-    tbb::combinable<Coverer> coverers([&] { return Coverer(pixels, shading, sums); });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 64),
+                  TriangleShading shading, const PatchSums& sums, LedgerSums* ledger) {
+    // So few at once, since one may cover all of the picture.
+    constexpr std::size_t kGrain = 8;
+    tbb::combinable<Coverer> coverers(
+        [&] { return Coverer(pixels, shading, sums, ledger != nullptr); });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), kGrain),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           Coverer& own = coverers.local();
                           for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -490,10 +497,11 @@ void coverPatches(std::span<const PatchData> patches, const SeenPixels& pixels,
                               if (!isNone) own.cover(unpacked(patches[i]));
                           }
                       });
+    if (ledger == nullptr) return;
     coverers.combine_each([&](const Coverer& own) {
-        for (std::size_t account = 0; account < ledger.size(); ++account) {
-            ledger[account].units += own.ledger()[account].units;
-            ledger[account].events += own.ledger()[account].events;
+        for (std::size_t account = 0; account < ledger->size(); ++account) {
+            (*ledger)[account].units += own.ledger()[account].units;
+            (*ledger)[account].events += own.ledger()[account].events;
         }
     });
 }

@@ -32,9 +32,9 @@ struct LedgerSum {
 };
 using LedgerSums = std::array<LedgerSum, transport::kLedgerEntryCount>;
 
-// Adds what the patches bring, to the ledger too. All sums are of whole numbers: the same to the
-// bit whichever thread comes first.
+// Adds what the patches bring, to the ledger too, unless that is null. All sums are of whole
+// numbers: the same to the bit whichever thread comes first.
 void coverPatches(std::span<const transport::PatchData> patches, const SeenPixels& pixels,
-                  TriangleShading shading, const PatchSums& sums, LedgerSums& ledger);
+                  TriangleShading shading, const PatchSums& sums, LedgerSums* ledger);
 
 }  // namespace kaustik

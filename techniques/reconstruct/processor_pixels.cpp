@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "framework/transport/octahedral.h"
+#include "framework/transport/seen.h"
 
 namespace kaustik {
 
@@ -14,17 +15,11 @@ using glm::vec2;
 using glm::vec3;
 using namespace transport;
 
-namespace {
-
-constexpr float kMaxSlope = 8.0f;  // of shaders/include/views/view.glsl
-
-}  // namespace
-
 float SeenPixels::depthMargin(const vec3& ray, float depth, const vec3& normal) const {
     const float footprint = footprint_ * depth;
     const float slope = (std::abs(normal.x) + std::abs(normal.y)) /
                         std::max(std::abs(glm::dot(normal, ray)), 1e-4f);
-    return footprint * (1.0f + 0.5f * std::min(slope, kMaxSlope));
+    return footprint * (1.0f + 0.5f * std::min(slope, kMaxPixelSlope));
 }
 
 float SeenPixels::pixelArea(const vec3& ray, float depth, const vec3& normal) const {

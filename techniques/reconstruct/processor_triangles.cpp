@@ -36,7 +36,8 @@ void clearPixels(ProcessorPixels& pixels, const render::RasterView& eye, const S
 }
 
 void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed, TriangleShading shading,
-                      float quantumWatts, const Ledger& ledger, const gl::PassContext& context) {
+                      const FrameInputs& inputs, const Ledger& ledger,
+                      const gl::PassContext& context) {
     if (context.isListing()) {
         for (std::size_t kind = 0; kind < listed.kinds; ++kind)
             listed.make(kind, 0);
@@ -44,8 +45,11 @@ void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed, Tria
     }
     std::vector<std::int64_t> begins = {0};  // of the kinds, and where the last one ends
     for (const ThreadListHeader& list :
-         context.buffer(listed.lists).readFirst<ThreadListHeader>(listed.kinds))
-        begins.push_back(begins.back() + list.count);
+         context.buffer(listed.lists).readFirst<ThreadListHeader>(listed.kinds)) {
+        // What a lost device says is anything.
+        begins.push_back(begins.back() +
+                         static_cast<std::int64_t>(std::min<std::size_t>(list.count, listed.most)));
+    }
     const auto room = static_cast<std::int64_t>(listed.room);
     LedgerSums all{};
     for (std::int64_t first = 0; first < begins.back(); first += room) {
@@ -58,9 +62,10 @@ void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed, Tria
             context.buffer(listed.made)
                 .readFirst<transport::PatchData>(static_cast<std::size_t>(end - first));
         coverPatches(patches, pixels.seen, shading,
-                     {pixels.sums, pixels.blocks, 1.0f / quantumWatts}, all);
+                     {pixels.sums, pixels.blocks, 1.0f / inputs.ledgerQuantumWatts},
+                     inputs.hasLedger ? &all : nullptr);
     }
-    if (begins.back() == 0) return;
+    if (begins.back() == 0 || !inputs.hasLedger) return;
     const gl::Buffer& buffer = context.buffer(ledger);
     auto entries = buffer.read<transport::LedgerEntry>();
     for (std::size_t account = 0; account < all.size(); ++account)

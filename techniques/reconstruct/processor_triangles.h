@@ -31,11 +31,13 @@ struct ListedPatches {
     std::size_t kinds;
     const graph::Buffer<transport::PatchData>& made;  // where they are to stand
     std::size_t room;                                 // for so many at once
+    std::size_t most;                                 // that the list of a kind has room for
     // Has the shaders write those of a kind, the first one to this place, which may lie before the
     // first that there is room for.
     std::function<void(std::size_t kind, int firstPlace)> make;
 };
 void coverOnProcessor(ProcessorPixels& pixels, const ListedPatches& listed, TriangleShading shading,
-                      float quantumWatts, const Ledger& ledger, const gl::PassContext& context);
+                      const FrameInputs& inputs, const Ledger& ledger,
+                      const gl::PassContext& context);
 
 }  // namespace kaustik

@@ -41,6 +41,7 @@ bool widensByLights(const FrameFacts& facts) {
 enum PatchKind { joined, ofBeams, atCreases };
 // Then come those of each kind that are laid more than once, and wide ones of two kinds.
 constexpr std::size_t kPatchKinds = 3;
+constexpr std::size_t kPatchesOfPhoton = 5;
 constexpr std::size_t kWidePatches = 2 * kPatchKinds;
 enum WideKind : std::size_t { toPixels, toSquares };
 constexpr std::size_t kWideKinds = 2;
@@ -49,7 +50,8 @@ constexpr std::size_t kPatchCounts = kWidePatches + kWideKinds;
 enum Listed : int { none, patches, copies, widePatches };
 constexpr std::size_t kPatchCountWords =
     kPatchCounts * sizeof(ThreadListHeader) / sizeof(std::uint32_t);
-// Wide patches that are kept; more are covered by one thread each.
+// Patches that are kept: wide ones, of which more are covered by one thread each, or as many of all
+// kinds as the processor covers at once.
 constexpr std::size_t kMaxWidePatches = 1u << 18u;
 struct VertexShares {
     float quarter, area, triangles, cells;
@@ -64,26 +66,28 @@ constexpr int kMaxMerges = 4;
 // rest.
 constexpr float kMaxWidthOnCube = 1.2f;
 
-// Null where the device covers the store's pixels: what a light's size spreads is laid many times,
-// and goes there.
+// Mesa's software rasteriser ends all loops of a thread after 65,535 turns together, of which a
+// pixel of a wide patch takes four in one of its eight threads.
+constexpr int kMaxWidthOnSoftware = 360;
+
+// Null where the device covers the eye's pixels: what a light's size spreads is laid many times,
+// and goes there. The same for all that is put into one map.
 std::shared_ptr<ProcessorPixels> processorFor(const FrameBuilder& frame,
                                               const TrianglesParams& params, const Photons& photons,
                                               const FluxMap& before) {
+    if (before.flux.valid()) return before.byProcessor;
+    const bool isAsked = isProcessorAsked(frame, params.cover, "reconstruct.triangles.cover");
+    if (!isAsked || photons.hasLightSpread()) return nullptr;
 #ifdef KAUSTIK_HAS_EMBREE
-    const bool isAsked = params.cover == CoverBy::processor ||
-                         (params.cover == CoverBy::automatic && frame.inputs().isOnProcessor);
-    if (!isAsked || photons.hasLightSpread() || frame.view().isOrthographic) return nullptr;
-    return before.byProcessor ? before.byProcessor : std::make_shared<ProcessorPixels>();
+    return std::make_shared<ProcessorPixels>();
 #else
-    static_cast<void>(frame), static_cast<void>(params), static_cast<void>(photons);
-    static_cast<void>(before);
     return nullptr;
 #endif
 }
 
 Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometry& geometry,
                const Hits& hits, const Store& store, const FluxMap& before) {
-    const TrianglesParams params = trianglesForViews(wanted, *store.receivers.views);
+    TrianglesParams params = trianglesForViews(wanted, *store.receivers.views);
     const FluxSets sets = setsIn(frame, store);
     const bool isGlossy = sets.hasIntensity();
     EdgeSamples edges;
@@ -113,6 +117,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
     const bool hasBlocks = store.isEyeView() && !isGlossy;
     const std::shared_ptr<ProcessorPixels> processor =
         hasBlocks ? processorFor(frame, params, hits.incoming, before) : nullptr;
+    if (!processor && frame.inputs().isOnProcessor)
+        params.maximum = std::min(params.maximum, kMaxWidthOnSoftware);
     // The processor tells the kinds of wide ones apart by itself.
     const std::size_t wideKinds = hasBlocks && !processor ? kWideKinds : 1;
     const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches) / wideKinds;
@@ -148,7 +154,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
             data.joins = TriangleJoins::create(setup, store, hits);
             create(data.shares, "PhotonShares", "shares", capacity);
             create(data.patches, "Patches", "patches",
-                   kPatchCountWords + (hits.incoming.hasLightSpread() ? 10 : 5) * capacity);
+                   kPatchCountWords +
+                       (hits.incoming.hasLightSpread() ? 2 : 1) * kPatchesOfPhoton * capacity);
             create(data.wide, "WidePatches", "wide", wideKinds * wideCapacity);
             if (params.merge > 0.0f) {
                 setup.define("MERGES");
@@ -226,11 +233,14 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                         .set("listCapacity", listCapacity);
                     dispatchOverPatches(std::move(command), kind);
                 };
-                coverOnProcessor(
-                    *pixels, {data.patches, kPatchKinds, data.wide, wideCapacity, make},
-                    params.shading, inputs.ledgerQuantumWatts, data.stored.ledger, context);
+                const std::size_t most = kPatchesOfPhoton * static_cast<std::size_t>(listCapacity);
+                coverOnProcessor(*pixels,
+                                 {data.patches, kPatchKinds, data.wide, wideCapacity, most, make},
+                                 params.shading, inputs, data.stored.ledger, context);
                 return;
             }
+#else
+            static_cast<void>(edges), static_cast<void>(inputs);
 #endif
             coverPatches(false);
             if (list.hasLightSpread()) {

@@ -8,6 +8,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/raster_views/map_params.h"
+#include "techniques/tracing/rays_by.h"
 
 namespace kaustik {
 
@@ -15,7 +16,6 @@ enum class TriangleShading : int { smooth, flat, vertices };
 enum class Unjoined : int { beams, discard };
 enum class LightSize : int { points, widened };
 enum class Coverage : int { middle, samples };
-enum class CoverBy : int { automatic, device, processor };
 
 inline std::string whyCoverageIsNotSampled(const FrameFacts& facts) {
     return facts.settings.get<ReconstructParams>(ReconstructStage::name).space == StoreSpace::screen
@@ -25,13 +25,9 @@ inline std::string whyCoverageIsNotSampled(const FrameFacts& facts) {
 
 // What the processor covers is of the eye's pixels alone, and matte.
 inline std::string whyNotCoveredByProcessor(const FrameFacts& facts) {
-#ifdef KAUSTIK_HAS_EMBREE
     if (facts.needs != nullptr && facts.needs->glossyReceivers) return "some receivers are glossy";
+    if (facts.widensByLights()) return "what a light's size spreads is laid by the device";
     return whyCoverageIsNotSampled(facts);
-#else
-    static_cast<void>(facts);
-    return "this program is built without Embree";
-#endif
 }
 
 // Photons that are stored by cell keep nothing of how their lights spread them.
@@ -49,7 +45,7 @@ struct TrianglesParams {
     float merge = 0.0f;
     LightSize lightSize = LightSize::points;
     Coverage coverage = Coverage::middle;
-    CoverBy cover = CoverBy::automatic;
+    RaysBy cover = RaysBy::automatic;
     template <class R>
     void reflect(R& r) {
         const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };

@@ -57,8 +57,6 @@ int seenOf(vec2 seen, vec3 seenNormal, float depth, vec3 normal, float tolerance
     if (seenDepth == 0.0) return kSeenOutside;
     if (seenDepth < depth - tolerance) return kSeenOccluded;
     if (isMirror || seenDepth > depth + tolerance) return kSeenOutside;
-    // A floor's light is not a wall's: of normals at right angles rounding would decide.
-    const float kSameSide = 1e-4;
     if (dot(seenNormal, normal) <= kSameSide) return kSeenOutside;
     area = seen.y;
     return kSeenOn;

@@ -4,6 +4,7 @@
 //   OTHER_VIEW         positions and directions of photons have to be brought into it
 //   ORTHOGRAPHIC_VIEW  its rays are parallel
 //   MANY_VIEWS         the faces of a cube; viewIndex says which, and arrays hold one after the other
+#include "framework/transport/seen.h"
 #include "framework/transport/types.h"
 
 #ifdef MANY_VIEWS
@@ -125,12 +126,9 @@ float pixelDepthExtent(vec3 ray, float depth, vec3 normalVs) {
 }
 
 // How far a ray may pass from a surface's depth at a pixel's middle and still hit it there: a
-// pixel's footprint and the extent. A surface seen more nearly edge-on than this slope is taken for
-// the silhouette of something thin, which ends within the pixel: without a bound rays hit its
-// plane far in front of it and beyond (cornell-bunny: 99.0 % of the photons right without, 99.4 %
-// with 8, 98.8 % with 3).
+// pixel's footprint and the extent, up to a slope.
 #ifndef MAX_SLOPE
-#define MAX_SLOPE 8.0
+#define MAX_SLOPE kMaxPixelSlope
 #endif
 const float kMaxSlope = MAX_SLOPE;
 float depthMargin(vec3 ray, float depth, vec3 normalVs) {

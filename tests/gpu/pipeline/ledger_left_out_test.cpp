@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "framework/run/settings.h"
 #include "framework/scene/files/scene_file.h"
@@ -12,19 +13,21 @@
 namespace kaustik::test {
 namespace {
 
-class WithoutALedger : public testing::TestWithParam<const char*> {};
+// By a technique; and as a GPU does it, or with the processor where it is the device.
+class WithoutALedger : public testing::TestWithParam<std::tuple<const char*, bool>> {};
 
 TEST_P(WithoutALedger, TheLightIsTheSameAndNoProgramKnowsOfOne) {
     const Registry registry = registerAll();
     const scene::Scene scene = scene::loadScene("glass-sphere");
     const auto rendered = [&](bool hasLedger, std::vector<gl::UsedProgram>& programs) {
-        RenderSettings settings = run::makeSettings(
-            {.technique = GetParam(), .assignments = {{"emit.photons", "32x32", "test"}}},
-            registry);
+        RenderSettings settings =
+            run::makeSettings({.technique = std::get<0>(GetParam()),
+                               .assignments = {{"emit.photons", "32x32", "test"}}},
+                              registry);
         settings.width = 64;
         settings.height = 48;
         settings.hasLedger = hasLedger;
-        settings.asOnGpu = true;
+        settings.asOnGpu = std::get<1>(GetParam());
         Renderer renderer(context(), registry, scene, settings);
         renderer.build(Purpose::picture);
         programs = renderer.listPrograms();
@@ -47,8 +50,10 @@ TEST_P(WithoutALedger, TheLightIsTheSameAndNoProgramKnowsOfOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, WithoutALedger,
-                         testing::Values("exact_rays", "screen_space_photons", "caustic_triangles",
-                                         "adaptive_caustic_map"));
+                         testing::Combine(testing::Values("exact_rays", "screen_space_photons",
+                                                          "caustic_triangles",
+                                                          "adaptive_caustic_map"),
+                                          testing::Bool()));
 
 }  // namespace
 }  // namespace kaustik::test

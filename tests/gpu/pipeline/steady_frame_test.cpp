@@ -145,15 +145,19 @@ TEST_F(SteadyFrames, OfAllTechniquesWaitForNothing) {
 TEST_F(SteadyFrames, CompileNoProgramThatWasNotListed) {
     for (const char* technique : {"screen_space_photons", "adaptive_caustic_map",
                                   "hierarchical_caustic_map", "exact_rays"}) {
-        SCOPED_TRACE(technique);
-        Renderer renderer(context(), registry_, scene_, settings(technique));
-        for (const Purpose purpose :
-             {Purpose::picture, Purpose::measurement, Purpose::audit, Purpose::view}) {
-            renderer.build(purpose);
-            gl::PassTimer timer(gl::TimerMode::finish);
-            const Watch watch;
-            renderer.renderFrame(timer);
-            EXPECT_EQ(calls.count("glCreateProgram"), 0u) << static_cast<int>(purpose);
+        for (const bool asOnGpu : {true, false}) {
+            SCOPED_TRACE(fmt::format("{} {}", technique, asOnGpu));
+            RenderSettings wanted = settings(technique);
+            wanted.asOnGpu = asOnGpu;
+            Renderer renderer(context(), registry_, scene_, wanted);
+            for (const Purpose purpose :
+                 {Purpose::picture, Purpose::measurement, Purpose::audit, Purpose::view}) {
+                renderer.build(purpose);
+                gl::PassTimer timer(gl::TimerMode::finish);
+                const Watch watch;
+                renderer.renderFrame(timer);
+                EXPECT_EQ(calls.count("glCreateProgram"), 0u) << static_cast<int>(purpose);
+            }
         }
     }
 }
