@@ -80,6 +80,7 @@ TEST_F(TechniquePanel, StagesAreThoseOfTheRegistryInTheOrderOfAFrame) {
         const std::string name = pass.at("name");
         const std::string stage = name.substr(0, name.find('.'));
         if (name == "reconstruct.pixel_blocks") continue;  // what is left to do in the end
+        if (name == "geometry.embree") continue;           // where it is first asked for
         std::erase(expected, stage);
         expected.push_back(stage);
     }
