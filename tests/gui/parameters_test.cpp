@@ -94,6 +94,7 @@ TEST_F(ParametersPanel, TheMiddleOfAWideRangeIsAUsualValue) {
     bench->click("parameter.layers.count");
     EXPECT_NEAR(std::stod(bench->value("parameter.layers.count")), 8.0, 1.0)
         << "which may be its default";
+    untilSettled();  // rows move as the new frame says what has an effect
     bench->click("parameter.trace.hierarchical.steps");
     EXPECT_LT(std::stod(bench->value("parameter.trace.hierarchical.steps")), 100.0);
     // The end that means "as many as needed" is there, too.
