@@ -138,9 +138,12 @@ def settings_of(rows: list[dict]) -> list[str]:
 
 
 def rows_of_others(kept: list[dict], rows: list[dict], settings: list[str]) -> list[dict]:
-    """The rows of a CSV whose settings no run has that is there now."""
-    made = {tuple(row[key] for key in settings) for row in rows}
-    return [row for row in kept if tuple(row[key] for key in settings) not in made]
+    """The rows of a CSV whose settings no run has that is there now. One that failed may not say all of them."""
+    def is_made(row: dict) -> bool:
+        blanks = row.get("status") == "failed"
+        return any(all(row[key] == new[key] or (blanks and row[key] == "") for key in settings) for new in rows)
+
+    return [row for row in kept if not is_made(row)]
 
 
 def main() -> int:

@@ -210,6 +210,13 @@ class Slim(unittest.TestCase):
             rebuild.write_slim(runs, slim, keep=True)
             self.assertEqual(slim.read_text().splitlines()[1:], ["1,done,,tree,7,a,3,ba9876543210", "1,done,,pool,8,a,2,0123456789ab", "1,done,,ring,9,a,1,"])
 
+    def test_that_failed_and_do_not_say_all_settings_give_way_to_the_same_run(self):
+        def row(status: str, scene: str, photons: str) -> dict:
+            return {"status": status, "scene": scene, "photons": photons}
+
+        kept = [row("failed", "ring", ""), row("failed", "pool", ""), row("done", "ring", ""), row("failed", "ring", "8")]
+        self.assertEqual(rebuild.rows_of_others(kept, [row("failed", "ring", "4")], ["scene", "photons"]), kept[1:])
+
     def test_of_reports_too_rows_have_their_keys(self):
         with tempfile.TemporaryDirectory() as folder:
             run = pathlib.Path(folder) / "a0"
