@@ -382,10 +382,11 @@ def main() -> int:
 
     def of_its_scene(rows: list[dict], called: str) -> list[dict]:
         """Those of the machine that their scene's runs are of."""
-        found = [row for row in rows if row["scene"] not in devices or not row.get("device") or is_same(devices[row["scene"]], device_of(row))]
-        if left := sorted({row["scene"] for row in rows} - {row["scene"] for row in found}):
-            print(f"speed_error: of {', '.join(left)} {called} of another machine than the runs, and left out", file=sys.stderr)
-        return found
+        of_others = [row for row in rows if row["scene"] in devices and row.get("device") and not is_same(devices[row["scene"]], device_of(row))]
+        if of_others:
+            scenes = ", ".join(sorted({row["scene"] for row in of_others}))
+            print(f"speed_error: of {scenes} {called} of another machine than the runs, and left out", file=sys.stderr)
+        return [row for row in rows if row not in of_others]
 
     if (folder / "best_mixtures.csv").is_file():
         runs += [row | {"technique": MIXTURE, "as_published": "false"} for row in of_its_scene(rows_of(folder / "best_mixtures.csv"), "the mixtures are")]
