@@ -7,6 +7,7 @@ import shutil
 import time
 
 from sources import SOURCES, Present, Tree, keys_noted
+from speed_curves import DISTURBED
 
 
 def reports_of(results: pathlib.Path) -> dict[str, pathlib.Path]:
@@ -66,3 +67,16 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
         shutil.rmtree(folder)
     if folders:
         print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
+
+
+def forget_disturbed(results: pathlib.Path, since: float) -> int:
+    """How many runs made since then had the machine not for themselves, by how much their frames differ: their folders go, so that the study makes them once
+    more. A driver that compiles in a frame that is timed is of that kind; by then it has what it compiled."""
+    folders = []
+    for report in reports_of(results).values():
+        frames = json.loads(report.read_text()).get("frame_ms") or {}
+        if report.stat().st_mtime >= since and frames.get("mean") and (frames.get("stdev") or 0.0) > DISTURBED * frames["mean"]:
+            folders.append(report.parent)
+    for folder in folders:
+        shutil.rmtree(folder)
+    return len(folders)

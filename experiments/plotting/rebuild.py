@@ -10,7 +10,7 @@
 Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from the CSVs
 (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many rows of a study are of the
 tree's sources, in a fresh clone too, and how many runs below OUT are of others; --anew makes those again, and no others. A study of which runs have failed
-keeps them as rows with their message.
+keeps them as rows with their message. Runs whose frames differ by more than a fifth (other work, or a driver that had still to compile) are made once more.
 With --only those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all
 others; with --missing those that the CSV has no row of (studies.md names them), or, with --anew too, no row that is known to be of the tree's sources: so a
 clone without any run makes what is no longer true, and nothing else. With --shard only the K-th of N equal parts is run and nothing is written to results/;
@@ -31,9 +31,10 @@ import tempfile
 import tomllib
 
 from maker import rows_in
-from noted import begin_of, forget_stale, judged, note_sources, of_tree, recipes_in, reports_of, stale
+from noted import begin_of, forget_disturbed, forget_stale, judged, note_sources, of_tree, recipes_in, reports_of, stale
 from result_steps import STEPS, described, make, missing_for, wrong_with
 from sources import RECIPES, Present, Tree, keys_noted, note_recipes, recipes_of
+from speed_curves import DISTURBED
 from study import device_of
 from study_plan import missing_of
 from table import rounded, rows_of_others
@@ -265,6 +266,19 @@ def missing_parts(study: str, present: Present | None = None) -> list[list[str]]
     return [conditions_of(run) for run in missing]
 
 
+def run_parts(kaustik: pathlib.Path, study: str, out: pathlib.Path, parts: list[list[str]]) -> tuple[bool, list[str]]:
+    """Whether it was interrupted, and what failed: rows say why, and the others count."""
+    failures = []
+    for part in parts:
+        try:
+            call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
+        except Failure as failure:
+            failures.append(f"{study}: {failure}")
+            if INTERRUPTED in str(failure):
+                return True, failures
+    return False, failures
+
+
 def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str] | None, studies: list[str],
             steps: list[str]) -> list[str]:
     """`only`: conditions; None: what is missing."""
@@ -285,15 +299,11 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             forget_stale(out / study, tree)
         marker = out / f"{study}{'-' + shard.replace('/', '-of-') if shard else ''}.since.json"
         begin = begin_of(marker, tree)
-        is_interrupted = False
-        for part in parts:
-            try:
-                call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
-            except Failure as failure:
-                failures.append(f"{study}: {failure}")  # whose rows say why; the others count
-                is_interrupted = INTERRUPTED in str(failure)
-            if is_interrupted:
-                break
+        is_interrupted, said = run_parts(kaustik, study, out, parts)
+        if not is_interrupted and (disturbed := forget_disturbed(out / study, begin)):
+            print(f"{study}: {disturbed} runs whose frames differ by more than {DISTURBED:.0%} are made once more", flush=True)
+            is_interrupted, said = run_parts(kaustik, study, out, parts)
+        failures += said
         if not tree.has_built(kaustik):
             print(f"{study}: '{kaustik}' is of another tree; its rows have no keys of sources", flush=True)
         elif Tree().fingerprint() != tree.fingerprint():

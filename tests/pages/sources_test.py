@@ -76,6 +76,19 @@ class Sources(unittest.TestCase):
         noted.forget_stale(results, Tree(self.root))
         self.assertEqual({folder.name for folder in results.iterdir() if folder.is_dir()}, {"b", "c"})
 
+    def test_runs_whose_frames_differ_too_much_go_if_they_were_made_since_then(self):
+        results = self.root / "results"
+        now = time.time()
+        for name, frames, made in (("steady", {"mean": 10.0, "stdev": 1.0}, now), ("disturbed", {"mean": 10.0, "stdev": 3.0}, now),
+                                   ("before", {"mean": 10.0, "stdev": 3.0}, now - 100.0), ("single", {"mean": 10.0, "stdev": None}, now), ("untimed", {}, now)):
+            (results / name).mkdir(parents=True)
+            report = results / name / "report.json"
+            report.write_text(json.dumps(REPORT | {"frame_ms": frames}))
+            os.utime(report, (made, made))
+        self.assertEqual(noted.forget_disturbed(results, now - 50.0), 1)
+        self.assertEqual({folder.name for folder in results.iterdir()}, {"steady", "before", "single", "untimed"})
+        self.assertEqual(noted.forget_disturbed(results, now - 50.0), 0)
+
     def test_a_studys_own_scene_is_of_its_file_and_of_what_that_extends_and_shows(self):
         own = {"experiments/maps/ring.toml": "extends = 'pool'\nname = 'mapped-ring'\nnormal_map = \"waves.png\"", "experiments/maps/waves.png": "waves"}
         for name, text in own.items():
