@@ -61,22 +61,22 @@ def judged(study: dict, rows: list[dict], present: Present) -> dict[str, int]:
     return count
 
 
-def forget_stale(results: pathlib.Path, tree: Tree) -> None:
-    folders = stale(results, tree)
+def disturbed(results: pathlib.Path, since: float) -> list[pathlib.Path]:
+    """The folders of runs made since then that had the machine not for themselves, by how much their frames differ; of scenes that stand still, since frames of
+    others differ by themselves. A driver that still compiles in a frame that is timed disturbs a run too."""
+    found = []
+    for path in reports_of(results).values():
+        report = json.loads(path.read_text())
+        frames = report.get("frame_ms") or {}
+        if (path.stat().st_mtime >= since and not report.get("time_step_s") and frames.get("mean")
+                and (frames.get("stdev") or 0.0) > DISTURBED * frames["mean"]):
+            found.append(path.parent)
+    return found
+
+
+def forget(folders: list[pathlib.Path], why: str) -> None:
+    """Of runs, so that the study makes them again."""
     for folder in folders:
         shutil.rmtree(folder)
     if folders:
-        print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
-
-
-def forget_disturbed(results: pathlib.Path, since: float) -> int:
-    """How many runs made since then had the machine not for themselves, by how much their frames differ: their folders go, so that the study makes them once
-    more. A driver that compiles in a frame that is timed is of that kind; by then it has what it compiled."""
-    folders = []
-    for report in reports_of(results).values():
-        frames = json.loads(report.read_text()).get("frame_ms") or {}
-        if report.stat().st_mtime >= since and frames.get("mean") and (frames.get("stdev") or 0.0) > DISTURBED * frames["mean"]:
-            folders.append(report.parent)
-    for folder in folders:
-        shutil.rmtree(folder)
-    return len(folders)
+        print(f"{folders[0].parent.name}: {len(folders)} runs {why}", flush=True)

@@ -10,7 +10,8 @@
 Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from the CSVs
 (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many rows of a study are of the
 tree's sources, in a fresh clone too, and how many runs below OUT are of others; --anew makes those again, and no others. A study of which runs have failed
-keeps them as rows with their message. Runs whose frames differ by more than a fifth (other work, or a driver that had still to compile) are made once more.
+keeps them as rows with their message. Runs whose frames differ by more than a fifth (other work, or a driver that had still to
+compile) are made once more, but for moving scenes and shards.
 With --only those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all
 others; with --missing those that the CSV has no row of (studies.md names them), or, with --anew too, no row that is known to be of the tree's sources: so a
 clone without any run makes what is no longer true, and nothing else. With --shard only the K-th of N equal parts is run and nothing is written to results/;
@@ -31,7 +32,7 @@ import tempfile
 import tomllib
 
 from maker import rows_in
-from noted import begin_of, forget_disturbed, forget_stale, judged, note_sources, of_tree, recipes_in, reports_of, stale
+from noted import begin_of, disturbed, forget, judged, note_sources, of_tree, recipes_in, reports_of, stale
 from result_steps import STEPS, described, make, missing_for, wrong_with
 from sources import RECIPES, Present, Tree, keys_noted, note_recipes, recipes_of
 from speed_curves import DISTURBED
@@ -296,12 +297,12 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             print(f"{study}: nothing is missing", flush=True)
             continue
         if anew:
-            forget_stale(out / study, tree)
+            forget(stale(out / study, tree), "of other sources are made anew")
         marker = out / f"{study}{'-' + shard.replace('/', '-of-') if shard else ''}.since.json"
         begin = begin_of(marker, tree)
         is_interrupted, said = run_parts(kaustik, study, out, parts)
-        if not is_interrupted and (disturbed := forget_disturbed(out / study, begin)):
-            print(f"{study}: {disturbed} runs whose frames differ by more than {DISTURBED:.0%} are made once more", flush=True)
+        if not shard and not is_interrupted and (again := disturbed(out / study, begin)):
+            forget(again, f"whose frames differ by more than {DISTURBED:.0%} are made once more")
             is_interrupted, said = run_parts(kaustik, study, out, parts)
         failures += said
         if not tree.has_built(kaustik):

@@ -73,21 +73,20 @@ class Sources(unittest.TestCase):
         noted.note_sources(results, Tree(self.root), time.time() + 60.0)
         self.assertEqual([folder.name for folder in noted.stale(results, Tree(self.root))], ["a"])
         self.assertEqual(set(json.loads((results / sources.SOURCES).read_text())), {"a", "b"})
-        noted.forget_stale(results, Tree(self.root))
+        noted.forget(noted.stale(results, Tree(self.root)), "are made anew")
         self.assertEqual({folder.name for folder in results.iterdir() if folder.is_dir()}, {"b", "c"})
 
-    def test_runs_whose_frames_differ_too_much_go_if_they_were_made_since_then(self):
+    def test_disturbed_are_runs_made_since_then_of_scenes_that_stand_still_whose_frames_differ(self):
         results = self.root / "results"
         now = time.time()
-        for name, frames, made in (("steady", {"mean": 10.0, "stdev": 1.0}, now), ("disturbed", {"mean": 10.0, "stdev": 3.0}, now),
-                                   ("before", {"mean": 10.0, "stdev": 3.0}, now - 100.0), ("single", {"mean": 10.0, "stdev": None}, now), ("untimed", {}, now)):
+        for name, frames, step, made in (("steady", {"mean": 10.0, "stdev": 1.0}, 0.0, now), ("disturbed", {"mean": 10.0, "stdev": 3.0}, 0.0, now),
+                                         ("before", {"mean": 10.0, "stdev": 3.0}, 0.0, now - 100.0), ("moving", {"mean": 10.0, "stdev": 3.0}, 0.03, now),
+                                         ("single", {"mean": 10.0, "stdev": None}, 0.0, now), ("untimed", {}, 0.0, now)):
             (results / name).mkdir(parents=True)
             report = results / name / "report.json"
-            report.write_text(json.dumps(REPORT | {"frame_ms": frames}))
+            report.write_text(json.dumps(REPORT | {"frame_ms": frames, "time_step_s": step}))
             os.utime(report, (made, made))
-        self.assertEqual(noted.forget_disturbed(results, now - 50.0), 1)
-        self.assertEqual({folder.name for folder in results.iterdir()}, {"steady", "before", "single", "untimed"})
-        self.assertEqual(noted.forget_disturbed(results, now - 50.0), 0)
+        self.assertEqual([folder.name for folder in noted.disturbed(results, now - 50.0)], ["disturbed"])
 
     def test_a_studys_own_scene_is_of_its_file_and_of_what_that_extends_and_shows(self):
         own = {"experiments/maps/ring.toml": "extends = 'pool'\nname = 'mapped-ring'\nnormal_map = \"waves.png\"", "experiments/maps/waves.png": "waves"}
