@@ -372,7 +372,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results/all_techniques")
     parser.add_argument("--in-turn", type=pathlib.Path, default=ROOT / "results/all_techniques/in_turn.csv", help="times of the default and the light tracer at another hour")
-    parser.add_argument("--elsewhere", type=pathlib.Path, default=ROOT / "results/all_techniques/in_turn_xeon.csv", help="the same on another processor, for the goals alone")
+    parser.add_argument("--elsewhere", type=pathlib.Path, default=ROOT / "results/all_techniques/in_turn_xeon.csv", help="the same on another processor, for its goals and for the times of the scenes whose runs are of it")
     parser.add_argument("--tables", action="store_true", help="draws nothing")
     arguments = parser.parse_args()
     folder = arguments.results
